@@ -1,0 +1,85 @@
+/// hyst: generalized Prandtl-Ishlinskii (GPI) hysteresis models and their exact inverse on a microcontroller.
+///
+///   y = D(v) + sum_j p_j w_j                                     Zhang et al. 2015, Eq. (8)
+///   rising input:   w_j <- max(ascending(v) - r_j, w_j)
+///   falling input:  w_j <- min(descending(v) + r_j, w_j)         Eq. (6)
+///
+/// with the play operators' radii r_j, weights p_j >= 0, an ascending and a descending envelope, and the
+/// non-hysteretic part D. The host command `hyst` identifies such a model from a measured record, compresses it
+/// to a few plays and emits a C header; this library runs it:
+///
+///   #include "vo2_film.h"                           // generated: vo2_film_model, VO2_FILM_NUM_PLAYS
+///   static float memory[VO2_FILM_NUM_PLAYS];
+///   static hyst_f32_state_t state;
+///   ...
+///   if (hyst_f32_init(&vo2_film_model, &state, memory, VO2_FILM_NUM_PLAYS) != HYST_STATUS_OK) { stop(); }
+///   float y = hyst_f32_step(&vo2_film_model, &state, u);            // what the actuator does
+///   hyst_f32_inverse_t want = hyst_f32_inverse(&vo2_film_model, &state, y_wanted);  // what to apply for y_wanted
+///
+/// Nothing in here allocates, prints, locks, blocks, recurses or keeps a global. A model is constant and may be
+/// shared by any number of states and contexts. A state may be used from one context at a time; different states
+/// share nothing, so each function may run in an interrupt as long as no other context uses the same state.
+#ifndef HYST_HYST_H
+#define HYST_HYST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define HYST_VERSION_MAJOR 0
+#define HYST_VERSION_MINOR 1
+#define HYST_VERSION_PATCH 0
+
+/// The layout of generated models. A header made for another layout refuses to compile.
+#define HYST_MODEL_FORMAT 1
+
+/// Most play operators in a model: keeps every count and index in 16 bits.
+#define HYST_MAX_PLAYS 4096
+/// Most knots in a model's table of curves.
+#define HYST_MAX_KNOTS 65535
+
+#if defined(__GNUC__)
+#define HYST_NODISCARD __attribute__((warn_unused_result))
+#else
+#define HYST_NODISCARD
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Why a function refused. Values are part of the interface and are never renumbered.
+typedef enum {
+    HYST_STATUS_OK = 0,
+    HYST_STATUS_NULL_POINTER = 1,    ///< a required pointer is NULL
+    HYST_STATUS_MODEL_FORMAT = 2,    ///< the model was generated for another HYST_MODEL_FORMAT
+    HYST_STATUS_PLAY_COUNT = 3,      ///< num_plays is 0 or above HYST_MAX_PLAYS
+    HYST_STATUS_MEMORY_LENGTH = 4,   ///< the memory given is shorter than num_plays
+    HYST_STATUS_INPUT_RANGE = 5,     ///< input_min < input_max does not hold, or one is not finite
+    HYST_STATUS_RADIUS = 6,          ///< radii are not finite, not >= 0, or decrease
+    HYST_STATUS_WEIGHT = 7,          ///< a weight is not finite or not >= 0
+    HYST_STATUS_NONHYSTERETIC = 8,   ///< the non-hysteretic part is not finite or decreases
+    HYST_STATUS_KNOTS = 9,           ///< the table's inputs do not strictly increase over [input_min, input_max]
+    HYST_STATUS_ENVELOPE = 10,       ///< an envelope is not finite or does not strictly increase
+    HYST_STATUS_ENVELOPE_ORDER = 11, ///< ascending(v) - r <= descending(v) + r does not hold for the least radius
+    HYST_STATUS_OUTPUT_RANGE = 12,   ///< the largest possible output is not finite in this scalar type
+    HYST_STATUS_SNAPSHOT = 13,       ///< a snapshot holds no state this model can be in
+    HYST_STATUS_SELF_TEST = 14,      ///< a golden vector came out with other bits than on the host
+} hyst_status_t;
+
+/// Which past a reset puts the memory into.
+typedef enum {
+    HYST_START_NEGATIVE_SATURATION = 0, ///< as left by a descent to input_min
+    HYST_START_POSITIVE_SATURATION = 1, ///< as left by an ascent to input_max
+    HYST_START_DEMAGNETISED = 2,        ///< as left by a slowly decaying alternation about the middle of the range
+} hyst_start_t;
+
+/// The status in English, for a log. Never NULL; a value outside the enum gives "unknown status".
+/// Constant time, no state: safe anywhere.
+const char* hyst_status_text(hyst_status_t status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
