@@ -10,7 +10,11 @@ typedef struct {
     double input;
 } reference_t;
 
-/// Starts from `start` and moves to first_input. START_MODEL without `initial` falls back to negative saturation.
+/// The past that `start` names, before any sample: the input is input_min, input_max or the middle of the
+/// range, for START_MODEL the middle of the inputs at which `initial` is at rest.
+reference_t reference_start(const model_t* model, start_t start);
+/// Starts from `start` and moves to first_input. START_MODEL without `initial` falls back to negative
+/// saturation.
 reference_t reference_new(const model_t* model, start_t start, double first_input);
 void reference_free(reference_t* reference);
 /// Eqs. (6) and (8). input finite; beyond the model's range the curves continue.
@@ -26,8 +30,9 @@ typedef struct {
 /// The input in [input_min, input_max] that gives `wanted` from the present memory; looks, does not commit.
 reference_inverse_t reference_inverse(const reference_t* reference, double wanted);
 
-/// Runs a whole input through a fresh model: output[t] for input[t], t < num_samples. The first sample's output is
-/// that of the start moved to input[0].
-void reference_run(const model_t* model, start_t start, const double* input, size_t num_samples, double* output);
+/// Runs a whole input through a fresh model: output[t] for input[t], t < num_samples. The first sample's
+/// output is that of the start moved to input[0].
+void reference_run(const model_t* model, start_t start, const double* input, size_t num_samples,
+                   double* output);
 
 #endif
