@@ -74,7 +74,7 @@ HYST_NODISCARD hyst_status_t hyst_f32_init(const hyst_f32_model_t* model, hyst_f
                                            size_t memory_length);
 
 /// Forgets the past: memory as `start` says, then moved to `input` (treated as hyst_f32_step treats it; NaN: the
-/// middle of the range). Counters are kept. Returns the output there. Time O(num_plays log num_knots).
+/// middle of the range). Counters are kept. Returns the output there. Time O(num_plays + num_knots).
 float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, hyst_start_t start, float input);
 
 /// Applies `input` [input units] and returns the model's output [output units], always finite. Eqs. (6) and (8).
@@ -86,7 +86,7 @@ float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, floa
 /// Looks, and changes nothing: the input that gives `wanted` [output units] from the present memory. To commit it,
 /// pass the input that was really applied to hyst_f32_step. Exact to rounding for the tabulated model; where many
 /// inputs give the same output, the one nearest to the present input. Solves one linear equation in one cell of
-/// the table: no iteration to a tolerance. Time O(num_plays log num_knots).
+/// the table: no iteration to a tolerance. Time O(num_plays (log num_knots + log num_plays)).
 /// NaN: the present input, clamped = true.
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state, float wanted);
 

@@ -1,0 +1,125 @@
+#include "hyst_f32_internal.h"
+
+/// Both envelopes at the ends of an alternation about the middle: ascending at its top, descending at its
+/// bottom.
+typedef struct {
+    float ascending;
+    float descending;
+} span_t;
+
+/// A walk outward from the middle of the range, from knot to knot on either side.
+typedef struct {
+    const hyst_f32_model_t* model;
+    float middle;
+    uint32_t cell_above; ///< holds the alternation's top
+    uint32_t cell_below; ///< holds its bottom
+    span_t span;
+} walk_t;
+
+static float opening(const span_t span)
+{
+    return span.ascending - span.descending;
+}
+
+static span_t full_span(const hyst_f32_model_t* model)
+{
+    const uint32_t last_cell = model->num_knots == 0 ? 0 : model->num_knots - 2;
+    const span_t span = {hyst_f32_envelope(model, last_cell, model->input_max, true),
+                         hyst_f32_envelope(model, 0, model->input_min, false)};
+    return span;
+}
+
+static float upper_end(const walk_t* walk)
+{
+    return walk->model->num_knots == 0 ? walk->model->input_max
+                                       : walk->model->knot[walk->cell_above + 1].input;
+}
+
+static float lower_end(const walk_t* walk)
+{
+    return walk->model->num_knots == 0 ? walk->model->input_min : walk->model->knot[walk->cell_below].input;
+}
+
+/// Widens the alternation to the nearer of the next knots above and below. False when that is the whole
+/// range.
+static bool widen(walk_t* walk)
+{
+    const hyst_f32_model_t* model = walk->model;
+    const float above = upper_end(walk) - walk->middle;
+    const float below = walk->middle - lower_end(walk);
+    const bool up_to_knot = above <= below;
+    const bool down_to_knot = below <= above;
+    const float top = up_to_knot ? upper_end(walk) : walk->middle + below;
+    const float bottom = down_to_knot ? lower_end(walk) : walk->middle - above;
+    walk->span.ascending = hyst_f32_envelope(model, walk->cell_above, top, true);
+    walk->span.descending = hyst_f32_envelope(model, walk->cell_below, bottom, false);
+    const bool at_top = up_to_knot && walk->cell_above + 2 >= model->num_knots;
+    const bool at_bottom = down_to_knot && walk->cell_below == 0;
+    if (at_top || at_bottom) {
+        return false;
+    }
+    walk->cell_above += up_to_knot ? 1u : 0u;
+    walk->cell_below -= down_to_knot ? 1u : 0u;
+    return true;
+}
+
+/// Play r follows the alternation until its amplitude has shrunk so far that ascending(top) -
+/// descending(bottom) = 2 r, and stays at ascending(top) - r. That amplitude grows with r, so one walk
+/// outward serves all plays; between knots both envelopes are linear in the amplitude. A play that the full
+/// range does not move gets the middle of its strip there.
+static void demagnetise(const hyst_f32_model_t* model, hyst_f32_state_t* state)
+{
+    const float middle = hyst_f32_middle(model);
+    const uint32_t cell = hyst_f32_find_cell(model, 0, middle);
+    walk_t walk = {model, middle, cell, cell, {0.0f, 0.0f}};
+    walk.span.ascending = hyst_f32_envelope(model, cell, middle, true);
+    walk.span.descending = hyst_f32_envelope(model, cell, middle, false);
+    span_t inner = walk.span;
+    bool more = true;
+    for (uint32_t j = 0; j < model->num_plays; ++j) {
+        const float radius = model->radius[j];
+        while (more && opening(walk.span) < 2.0f * radius) {
+            inner = walk.span;
+            more = widen(&walk);
+        }
+        const span_t outer = walk.span;
+        const float gap = opening(outer) - opening(inner);
+        if (opening(outer) < 2.0f * radius) {
+            const span_t full = full_span(model);
+            state->memory[j] = 0.5f * full.ascending + 0.5f * full.descending;
+        } else if (gap > 0.0f) {
+            const float part = hyst_f32_limit((2.0f * radius - opening(inner)) / gap, 0.0f, 1.0f);
+            state->memory[j] = inner.ascending + part * (outer.ascending - inner.ascending) - radius;
+        } else {
+            state->memory[j] = inner.ascending - radius;
+        }
+    }
+    hyst_f32_place(model, state, middle);
+}
+
+static void saturate_positive(const hyst_f32_model_t* model, hyst_f32_state_t* state)
+{
+    const float envelope = full_span(model).ascending;
+    for (uint32_t j = 0; j < model->num_plays; ++j) {
+        state->memory[j] = hyst_f32_pushed(envelope, model->radius[j], true);
+    }
+    hyst_f32_place(model, state, model->input_max);
+}
+
+float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, const hyst_start_t start,
+                     const float input)
+{
+    switch (start) {
+    case HYST_START_POSITIVE_SATURATION:
+        saturate_positive(model, state);
+        break;
+    case HYST_START_DEMAGNETISED:
+        demagnetise(model, state);
+        break;
+    case HYST_START_NEGATIVE_SATURATION:
+    default:
+        hyst_f32_saturate_negative(model, state);
+        break;
+    }
+    return hyst_f32_step(model, state, hyst_f32_is_nan(input) ? hyst_f32_middle(model) : input);
+}
