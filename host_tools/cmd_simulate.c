@@ -1,0 +1,96 @@
+#include "model_run.h"
+#include "reference.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/// How the model's output compares with the measured one.
+typedef struct {
+    double rmse, relative, max_error; ///< relative: rmse over the measured output's range, 0 where that is 0
+} fit_t;
+
+static fit_t compare(const double* measured, const double* modelled, size_t num_samples)
+{
+    double sum = 0.0;
+    double low = measured[0];
+    double high = measured[0];
+    fit_t fit = {0};
+    for (size_t i = 0; i < num_samples; ++i) {
+        const double error = fabs(modelled[i] - measured[i]);
+        sum += error * error;
+        fit.max_error = fmax(fit.max_error, error);
+        low = fmin(low, measured[i]);
+        high = fmax(high, measured[i]);
+    }
+    fit.rmse = sqrt(sum / (double)num_samples);
+    fit.relative = high > low ? fit.rmse / (high - low) : 0.0;
+    return fit;
+}
+
+static void warn_outside(const model_t* model, const record_t* record)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < record->num_samples; ++i) {
+        count += record->input[i] < model->input_min || record->input[i] > model->input_max ? 1 : 0;
+    }
+    if (count > 0) {
+        message_warning(
+            (location_t){.file = record->path},
+            "%zu of %zu inputs lie outside the model's range %.9g ... %.9g, where its curves are continued",
+            count, record->num_samples, model->input_min, model->input_max);
+    }
+}
+
+static outcome_t write_simulated(const char* path, const record_t* record, const double* output)
+{
+    record_column_t* columns = xcalloc(record->num_auxiliary + 3, sizeof *columns);
+    size_t count = 0;
+    if (record->time != NULL) {
+        columns[count++] = (record_column_t){"time", record->time, false};
+    }
+    columns[count++] = (record_column_t){"input", record->input, false};
+    columns[count++] = (record_column_t){"output", output, false};
+    for (size_t i = 0; i < record->num_auxiliary; ++i) {
+        columns[count++] = (record_column_t){record->auxiliary[i].name, record->auxiliary[i].value, false};
+    }
+    const outcome_t outcome = record_write(path, columns, count, record->num_samples);
+    free(columns);
+    return outcome;
+}
+
+static void report(const model_run_t* run, const double* output)
+{
+    const record_t* record = run->record;
+    printf(run->json ? "{\"samples\": %zu" : "%zu samples", record->num_samples);
+    if (record->output != NULL) {
+        const fit_t fit = compare(record->output, output, record->num_samples);
+        printf(run->json ? ", \"rmse\": %.9g, \"relative\": %.9g, \"max_error\": %.9g"
+                         : ", rmse %.9g (%.3g of the measured output's range), largest error %.9g",
+               fit.rmse, fit.relative, fit.max_error);
+    }
+    puts(run->json ? "}" : "");
+}
+
+static outcome_t simulate(const model_run_t* run)
+{
+    warn_outside(run->model, run->record);
+    double* output = xcalloc(run->record->num_samples, sizeof(double));
+    reference_run(run->model, run->start, run->record->input, run->record->num_samples, output);
+    const outcome_t outcome = write_simulated(run->output, run->record, output);
+    if (outcome == OUTCOME_OK && run->report) {
+        report(run, output);
+    }
+    free(output);
+    return outcome;
+}
+
+outcome_t cmd_simulate(int argc, const char** argv)
+{
+    const command_t command = {"simulate", "MODEL RECORD", 2,
+                               "Writes time, input, the model's output for that input, and the record's "
+                               "auxiliary columns. Where the\n"
+                               "record has an output column, says how far the model's is from it. Beyond the "
+                               "model's input range its\n"
+                               "curves are continued, with a warning."};
+    return model_run(&command, (record_options_t){.needs_input = true}, simulate, argc, argv);
+}

@@ -1,0 +1,95 @@
+#include "model_run.h"
+#include "model_file.h"
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    char* output;
+    char* initial;
+    char* columns;
+    double sample_rate;
+    int json;
+} options_t;
+
+static bool is_stream(const char* path)
+{
+    return path == NULL || strcmp(path, "-") == 0;
+}
+
+static outcome_t check_streams(const options_t* options, const char* const* arguments)
+{
+    if (is_stream(arguments[0]) && is_stream(arguments[1])) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "the model and the record cannot both come from stdin");
+    }
+    if (options->json != 0 && is_stream(options->output)) {
+        return message_error(OUTCOME_USAGE, NOWHERE,
+                             "--json needs -o FILE: without it the record is written to stdout");
+    }
+    return OUTCOME_OK;
+}
+
+static outcome_t run_on(const options_t* options, const char* model_path, const model_t* model,
+                        const record_t* record, model_run_work_t* work)
+{
+    start_t start;
+    outcome_t outcome = command_refuse_effects(model_path, model);
+    if (outcome == OUTCOME_OK) {
+        outcome = command_start(options->initial, model, &start);
+    }
+    if (outcome != OUTCOME_OK) {
+        return outcome;
+    }
+    const model_run_t run = {.model = model,
+                             .record = record,
+                             .start = start,
+                             .output = options->output,
+                             .report = !is_stream(options->output),
+                             .json = options->json != 0};
+    return work(&run);
+}
+
+static outcome_t read_and_run(const options_t* options, const char* const* arguments, record_options_t needs,
+                              model_run_work_t* work)
+{
+    model_t model;
+    outcome_t outcome = check_streams(options, arguments);
+    if (outcome == OUTCOME_OK) {
+        outcome = model_read(arguments[0], &model);
+    }
+    if (outcome != OUTCOME_OK) {
+        return outcome;
+    }
+    needs.columns = options->columns;
+    needs.sample_rate = options->sample_rate;
+    record_t record;
+    outcome = record_read(arguments[1], &needs, &record);
+    if (outcome == OUTCOME_OK) {
+        outcome = run_on(options, arguments[0], &model, &record, work);
+    }
+    record_free(&record);
+    model_free(&model);
+    return outcome;
+}
+
+outcome_t model_run(const command_t* command, record_options_t needs, model_run_work_t* work, int argc,
+                    const char** argv)
+{
+    options_t options = {0};
+    const struct poptOption table[] = {
+        {"output", 'o', POPT_ARG_STRING, &options.output, 0, "the record to write (default: stdout)", "FILE"},
+        {"initial", 0, POPT_ARG_STRING, &options.initial, 0,
+         "the past: negative-saturation, positive-saturation, demagnetised or model", "NAME"},
+        RECORD_OPTIONS(&options.columns, &options.sample_rate),
+        {"json", 0, POPT_ARG_NONE, &options.json, 0, "print the result as JSON (needs -o FILE)", NULL},
+        POPT_TABLEEND};
+    const char* arguments[2] = {NULL, NULL};
+    bool finished;
+    outcome_t outcome = command_parse(command, table, argc, argv, arguments, &finished);
+    if (outcome == OUTCOME_OK && !finished) {
+        outcome = read_and_run(&options, arguments, needs, work);
+    }
+    free(options.output);
+    free(options.initial);
+    free(options.columns);
+    return outcome;
+}
