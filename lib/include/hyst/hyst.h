@@ -58,11 +58,11 @@ typedef enum {
     HYST_STATUS_INPUT_RANGE = 5,     ///< input_min < input_max does not hold, or one or the width is not finite
     HYST_STATUS_RADIUS = 6,          ///< radii are not finite, not >= 0, or decrease
     HYST_STATUS_WEIGHT = 7,          ///< a weight is not finite or not >= 0
-    HYST_STATUS_NONHYSTERETIC = 8,   ///< the non-hysteretic part is not finite or decreases; like an
-                                     ///< envelope's, a slope that contradicts its knots counts as both
+    HYST_STATUS_NONHYSTERETIC = 8,   ///< the non-hysteretic part is not finite, decreases, or its slopes
+                                     ///< contradict its knots
     HYST_STATUS_KNOTS = 9,           ///< the table's inputs do not strictly increase over [input_min, input_max]
-    HYST_STATUS_ENVELOPE = 10,       ///< an envelope is not finite, decreases (equal neighbouring knots
-                                     ///< are taken: saturation rounds so), or does not increase over all
+    HYST_STATUS_ENVELOPE = 10,       ///< an envelope is not finite, decreases, does not increase over all (equal
+                                     ///< neighbours are taken: saturation rounds so), or its slopes contradict it
     HYST_STATUS_ENVELOPE_ORDER = 11, ///< ascending(v) - r <= descending(v) + r does not hold for the least radius
     HYST_STATUS_OUTPUT_RANGE = 12,   ///< the largest possible output, doubled, is not finite in this type
     HYST_STATUS_SNAPSHOT = 13,       ///< a snapshot holds no state this model can be in
