@@ -1,0 +1,221 @@
+#include "f32_model.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+
+/// A sound tabulated model, and the arrays that a test spoils one entry of.
+static float radius[3];
+static float weight[3];
+static hyst_f32_knot_t knot[3];
+static hyst_f32_model_t model;
+static hyst_f32_state_t state;
+static float memory[3];
+
+void setUp(void)
+{
+    memcpy(radius, (const float[]){0.0F, 0.5F, 0.5F}, sizeof radius);
+    memcpy(weight, (const float[]){1.0F, 0.0F, 2.0F}, sizeof weight);
+    memcpy(knot,
+           (const hyst_f32_knot_t[]){{0.0F, -1.0F, 1.0F, 0.0F, 1.0F, 2.0F, 0.0F},
+                                     {1.0F, 0.0F, 2.0F, 1.0F, 2.0F, 2.0F, 1.0F},
+                                     {2.0F, 2.0F, 0.0F, 3.0F, 0.0F, 3.0F, 0.0F}},
+           sizeof knot);
+    model = (hyst_f32_model_t){.format = HYST_MODEL_FORMAT,
+                               .num_plays = 3,
+                               .num_knots = 3,
+                               .input_min = 0.0F,
+                               .input_max = 2.0F,
+                               .constant = 0.25F,
+                               .radius = radius,
+                               .weight = weight,
+                               .knot = knot};
+    memset(&state, 0x5A, sizeof state);
+    memset(memory, 0x5A, sizeof memory);
+}
+
+void tearDown(void)
+{
+}
+
+/// Refused for this reason, and nothing written.
+static void assert_refused(hyst_status_t expected)
+{
+    hyst_f32_state_t untouched;
+    float untouched_memory[3];
+    memset(&untouched, 0x5A, sizeof untouched);
+    memset(untouched_memory, 0x5A, sizeof untouched_memory);
+    TEST_ASSERT_EQUAL(expected, hyst_f32_init(&model, &state, memory, 3));
+    TEST_ASSERT_EQUAL_MEMORY(&untouched, &state, sizeof state);
+    TEST_ASSERT_EQUAL_MEMORY(untouched_memory, memory, sizeof memory);
+}
+
+/// Refused with `bad` in *place, and sound again afterwards.
+static void assert_refuses(float* place, float bad, hyst_status_t expected)
+{
+    const float good = *place;
+    *place = bad;
+    assert_refused(expected);
+    *place = good;
+}
+
+static void test_starts_at_negative_saturation(void)
+{
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&model, &state, memory, 3));
+    TEST_ASSERT_TRUE(memory[0] == 0.0F && memory[1] == 0.5F && memory[2] == 0.5F);
+    TEST_ASSERT_TRUE(state.input == 0.0F && state.output == 0.25F + 2.0F + 1.0F);
+    TEST_ASSERT_EQUAL_UINT32(0, state.cell);
+    TEST_ASSERT_EQUAL_UINT32(0, state.invalid_inputs);
+    TEST_ASSERT_EQUAL_UINT32(0, state.clamped_inputs);
+}
+
+static void test_null_pointers(void)
+{
+    TEST_ASSERT_EQUAL(HYST_STATUS_NULL_POINTER, hyst_f32_init(NULL, &state, memory, 3));
+    TEST_ASSERT_EQUAL(HYST_STATUS_NULL_POINTER, hyst_f32_init(&model, NULL, memory, 3));
+    TEST_ASSERT_EQUAL(HYST_STATUS_NULL_POINTER, hyst_f32_init(&model, &state, NULL, 3));
+    model.radius = NULL;
+    assert_refused(HYST_STATUS_NULL_POINTER);
+    model.radius = radius;
+    model.weight = NULL;
+    assert_refused(HYST_STATUS_NULL_POINTER);
+    model.weight = weight;
+    model.knot = NULL;
+    assert_refused(HYST_STATUS_NULL_POINTER);
+}
+
+static void test_layout(void)
+{
+    model.format = HYST_MODEL_FORMAT + 1;
+    assert_refused(HYST_STATUS_MODEL_FORMAT);
+    model.format = HYST_MODEL_FORMAT;
+    model.num_plays = 0;
+    assert_refused(HYST_STATUS_PLAY_COUNT);
+    model.num_plays = HYST_MAX_PLAYS + 1;
+    assert_refused(HYST_STATUS_PLAY_COUNT);
+    model.num_plays = 3;
+    TEST_ASSERT_EQUAL(HYST_STATUS_MEMORY_LENGTH, hyst_f32_init(&model, &state, memory, 2));
+}
+
+static void test_input_range(void)
+{
+    assert_refuses(&model.input_min, NAN, HYST_STATUS_INPUT_RANGE);
+    assert_refuses(&model.input_min, 2.0F, HYST_STATUS_INPUT_RANGE);
+    assert_refuses(&model.input_max, INFINITY, HYST_STATUS_INPUT_RANGE);
+    model.input_min = -FLT_MAX;
+    assert_refuses(&model.input_max, FLT_MAX, HYST_STATUS_INPUT_RANGE);
+}
+
+static void test_plays(void)
+{
+    assert_refuses(&radius[0], -FLT_MIN, HYST_STATUS_RADIUS);
+    assert_refuses(&radius[1], NAN, HYST_STATUS_RADIUS);
+    assert_refuses(&radius[2], INFINITY, HYST_STATUS_RADIUS);
+    assert_refuses(&radius[2], 0.25F, HYST_STATUS_RADIUS);
+    assert_refuses(&weight[0], -1.0F, HYST_STATUS_WEIGHT);
+    assert_refuses(&weight[1], NAN, HYST_STATUS_WEIGHT);
+    assert_refuses(&weight[2], INFINITY, HYST_STATUS_WEIGHT);
+}
+
+static void test_knots(void)
+{
+    assert_refuses(&knot[1].input, 0.0F, HYST_STATUS_KNOTS);
+    assert_refuses(&knot[1].input, NAN, HYST_STATUS_KNOTS);
+    assert_refuses(&knot[0].input, -1.0F, HYST_STATUS_KNOTS);
+    assert_refuses(&knot[2].input, 2.5F, HYST_STATUS_KNOTS);
+    model.num_knots = 1;
+    assert_refused(HYST_STATUS_KNOTS);
+    model.num_knots = HYST_MAX_KNOTS + 1;
+    assert_refused(HYST_STATUS_KNOTS);
+}
+
+static void test_curves(void)
+{
+    assert_refuses(&knot[1].nonhysteretic, 1.5F, HYST_STATUS_NONHYSTERETIC);
+    assert_refuses(&knot[0].nonhysteretic_slope, NAN, HYST_STATUS_NONHYSTERETIC);
+    assert_refuses(&knot[1].nonhysteretic_slope, 1.001F, HYST_STATUS_NONHYSTERETIC);
+    assert_refuses(&knot[1].ascending, -1.5F, HYST_STATUS_ENVELOPE);
+    assert_refuses(&knot[2].ascending, INFINITY, HYST_STATUS_ENVELOPE);
+    assert_refuses(&knot[0].ascending_slope, 0.999F, HYST_STATUS_ENVELOPE);
+    assert_refuses(&knot[0].descending, 1.5F, HYST_STATUS_ENVELOPE);
+    assert_refuses(&knot[1].descending_slope, -2.0F, HYST_STATUS_ENVELOPE);
+    assert_refuses(&knot[2].descending, NAN, HYST_STATUS_ENVELOPE);
+}
+
+static void test_an_envelope_may_be_flat_somewhere_but_not_everywhere(void)
+{
+    knot[1].ascending = -1.0F;
+    knot[0].ascending_slope = 0.0F;
+    knot[1].ascending_slope = 3.0F;
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&model, &state, memory, 3));
+    setUp();
+    knot[2].ascending = -1.0F;
+    knot[1].ascending = -1.0F;
+    knot[0].ascending_slope = 0.0F;
+    knot[1].ascending_slope = 0.0F;
+    assert_refused(HYST_STATUS_ENVELOPE);
+}
+
+static void test_envelope_order(void)
+{
+    for (int k = 0; k < 3; ++k) {
+        knot[k].ascending += 1.5F;
+    }
+    assert_refused(HYST_STATUS_ENVELOPE_ORDER);
+    // Radii of a quarter more close the gap of 0.5, exactly.
+    radius[0] = 0.25F;
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&model, &state, memory, 3));
+}
+
+static void test_output_range(void)
+{
+    assert_refuses(&model.constant, NAN, HYST_STATUS_OUTPUT_RANGE);
+    assert_refuses(&model.constant, FLT_MAX, HYST_STATUS_OUTPUT_RANGE);
+    assert_refuses(&weight[2], FLT_MAX, HYST_STATUS_OUTPUT_RANGE);
+    // Each product is finite, their sum is not.
+    weight[1] = 0.08F * FLT_MAX;
+    assert_refuses(&weight[2], 0.08F * FLT_MAX, HYST_STATUS_OUTPUT_RANGE);
+    weight[1] = 0.0F;
+    weight[2] = 0.0F;
+    assert_refuses(&radius[2], FLT_MAX, HYST_STATUS_OUTPUT_RANGE);
+}
+
+static void test_classical(void)
+{
+    model.num_knots = 0;
+    model.knot = NULL;
+    assert_refuses(&model.nonhysteretic_slope, -1.0F, HYST_STATUS_NONHYSTERETIC);
+    assert_refuses(&model.nonhysteretic_slope, NAN, HYST_STATUS_NONHYSTERETIC);
+    assert_refuses(&model.nonhysteretic_slope, FLT_MAX, HYST_STATUS_OUTPUT_RANGE);
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&model, &state, memory, 3));
+}
+
+static void test_every_status_has_its_own_text(void)
+{
+    for (int a = HYST_STATUS_OK; a <= HYST_STATUS_SELF_TEST; ++a) {
+        TEST_ASSERT_NOT_EQUAL(0, strcmp("unknown status", hyst_status_text((hyst_status_t)a)));
+        for (int b = HYST_STATUS_OK; b < a; ++b) {
+            TEST_ASSERT_NOT_EQUAL(
+                0, strcmp(hyst_status_text((hyst_status_t)a), hyst_status_text((hyst_status_t)b)));
+        }
+    }
+    TEST_ASSERT_EQUAL_STRING("unknown status", hyst_status_text((hyst_status_t)(HYST_STATUS_SELF_TEST + 1)));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_starts_at_negative_saturation);
+    RUN_TEST(test_null_pointers);
+    RUN_TEST(test_layout);
+    RUN_TEST(test_input_range);
+    RUN_TEST(test_plays);
+    RUN_TEST(test_knots);
+    RUN_TEST(test_curves);
+    RUN_TEST(test_an_envelope_may_be_flat_somewhere_but_not_everywhere);
+    RUN_TEST(test_envelope_order);
+    RUN_TEST(test_output_range);
+    RUN_TEST(test_classical);
+    RUN_TEST(test_every_status_has_its_own_text);
+    return UNITY_END();
+}
