@@ -1,4 +1,5 @@
 #include "command.h"
+#include "input_file.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -135,7 +136,7 @@ outcome_t command_refuse_effects(const char* path, const model_t* model)
         return OUTCOME_OK;
     }
     const json_t* type = json_object_get(json_array_get(model->effects, 0), "type");
-    return message_error(OUTCOME_BAD_INPUT, (location_t){.file = path},
+    return message_error(OUTCOME_BAD_INPUT, (location_t){.file = input_name(path)},
                          "the model has effects (\"%s\" first): this version cannot run a model with effects",
                          json_string_value(type));
 }

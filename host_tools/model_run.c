@@ -1,5 +1,6 @@
 #include "model_run.h"
 #include "model_file.h"
+#include "output_file.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,17 +12,12 @@ typedef struct {
     int json;
 } options_t;
 
-static bool is_stream(const char* path)
-{
-    return path == NULL || strcmp(path, "-") == 0;
-}
-
 static outcome_t check_streams(const options_t* options, const char* const* arguments)
 {
-    if (is_stream(arguments[0]) && is_stream(arguments[1])) {
+    if (strcmp(arguments[0], "-") == 0 && strcmp(arguments[1], "-") == 0) {
         return message_error(OUTCOME_USAGE, NOWHERE, "the model and the record cannot both come from stdin");
     }
-    if (options->json != 0 && is_stream(options->output)) {
+    if (options->json != 0 && output_is_stdout(options->output)) {
         return message_error(OUTCOME_USAGE, NOWHERE,
                              "--json needs -o FILE: without it the record is written to stdout");
     }
@@ -43,7 +39,7 @@ static outcome_t run_on(const options_t* options, const char* model_path, const 
                              .record = record,
                              .start = start,
                              .output = options->output,
-                             .report = !is_stream(options->output),
+                             .report = !output_is_stdout(options->output),
                              .json = options->json != 0};
     return work(&run);
 }

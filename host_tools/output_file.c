@@ -65,10 +65,15 @@ static outcome_t cannot_write(const char* path, int error)
                          error != 0 ? strerror(error) : "writing failed");
 }
 
-static bool is_stdout(const struct stat* status)
+bool output_is_stdout(const char* path)
 {
+    if (path == NULL || strcmp(path, "-") == 0) {
+        return true;
+    }
+    struct stat named;
     struct stat own;
-    return fstat(STDOUT_FILENO, &own) == 0 && own.st_dev == status->st_dev && own.st_ino == status->st_ino;
+    return stat(path, &named) == 0 && fstat(STDOUT_FILENO, &own) == 0 && own.st_dev == named.st_dev &&
+           own.st_ino == named.st_ino;
 }
 
 static outcome_t open_temporary(output_file_t* file)
@@ -103,14 +108,11 @@ static outcome_t open_directly(output_file_t* file)
 outcome_t output_open(output_file_t* file, const char* path)
 {
     *file = (output_file_t){.stream = stdout};
-    if (path == NULL || strcmp(path, "-") == 0) {
+    if (output_is_stdout(path)) {
         return OUTCOME_OK;
     }
     struct stat status;
     const bool exists = stat(path, &status) == 0;
-    if (exists && is_stdout(&status)) {
-        return OUTCOME_OK;
-    }
     file->stream = NULL;
     // The file behind a symbolic link is replaced, not the link.
     char* target = exists ? realpath(path, NULL) : NULL;

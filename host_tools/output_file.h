@@ -11,6 +11,8 @@ typedef struct {
     char* temporary_path; ///< NULL for stdout
 } output_file_t;
 
+/// Whether path means stdout: "-", NULL, or another name for the same file or device (/dev/stdout).
+bool output_is_stdout(const char* path);
 /// path "-" or NULL: stdout. Reports and returns OUTCOME_IO when it cannot be opened.
 outcome_t output_open(output_file_t* file, const char* path);
 /// Flushes, checks for errors, renames over the target (keeping the mode a new file would get).

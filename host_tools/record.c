@@ -273,9 +273,9 @@ static double* take(field_t* field)
 }
 
 /// Hands the fields' values over to the record.
-static void fill_record(reader_t* reader, const char* path, record_t* record)
+static void fill_record(reader_t* reader, record_t* record)
 {
-    record->path = xstrdup(path);
+    record->path = xstrdup(reader->file);
     record->num_samples = reader->num_samples;
     record->auxiliary = xcalloc(reader->num_fields, sizeof(column_t));
     for (size_t i = 0; i < reader->num_fields; ++i) {
@@ -349,7 +349,7 @@ outcome_t record_read(const char* path, const record_options_t* options, record_
         read_stream(&reader, path);
     }
     if (reader.outcome == OUTCOME_OK) {
-        fill_record(&reader, path, record);
+        fill_record(&reader, record);
     }
     reader_free(&reader);
     return reader.outcome;

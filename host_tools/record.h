@@ -12,7 +12,7 @@ typedef struct {
 } column_t;
 
 typedef struct {
-    char* path;           ///< as given, for messages
+    char* path;           ///< for messages: as given, stdin's is <stdin>
     size_t num_samples;
     double* time;         ///< [s], strictly increasing; NULL when the record has none and no sample rate was given
     double* input;        ///< NULL only when not required

@@ -74,6 +74,16 @@ void column_names_free(column_names_t* names)
     }
 }
 
+/// num_fields when there is none of that name.
+static size_t find_field(const field_t* fields, size_t num_fields, const char* name)
+{
+    size_t i = 0;
+    while (i < num_fields && strcmp(fields[i].name, name) != 0) {
+        i += 1;
+    }
+    return i;
+}
+
 static outcome_t missing_column(location_t header, size_t role, const char* name, const field_t* fields,
                                 size_t num_fields)
 {
@@ -107,8 +117,13 @@ static outcome_t check_duplicates(location_t header, const field_t* fields, size
 
 /// Columns without a name cannot be asked for, and one called "input" beside the mapped input would be
 /// written twice.
-static role_t unmapped_role(location_t header, const char* name)
+static role_t role_of(location_t header, const column_names_t* names, const char* name)
 {
+    for (size_t role = 0; role < NUM_NAMED_ROLES; ++role) {
+        if (strcmp(name, names->name[role]) == 0) {
+            return (role_t)role;
+        }
+    }
     for (size_t role = 0; role < NUM_NAMED_ROLES; ++role) {
         if (strcmp(name, role_name[role]) == 0) {
             message_note(header, "column \"%s\" is left out: --columns names another one", name);
@@ -127,23 +142,14 @@ outcome_t record_assign_roles(location_t header, const record_options_t* options
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    bool mapped[NUM_NAMED_ROLES] = {false};
-    for (size_t i = 0; i < num_fields; ++i) {
-        size_t role = 0;
-        while (role < NUM_NAMED_ROLES && strcmp(fields[i].name, names->name[role]) != 0) {
-            role += 1;
-        }
-        if (role < NUM_NAMED_ROLES) {
-            mapped[role] = true;
-            fields[i].role = (role_t)role;
-        } else {
-            fields[i].role = unmapped_role(header, fields[i].name);
-        }
-    }
     for (size_t role = 0; role < NUM_NAMED_ROLES; ++role) {
-        if (!mapped[role] && (needed[role] || names->given[role])) {
+        const bool there = find_field(fields, num_fields, names->name[role]) < num_fields;
+        if (!there && (needed[role] || names->given[role])) {
             return missing_column(header, role, names->name[role], fields, num_fields);
         }
+    }
+    for (size_t i = 0; i < num_fields; ++i) {
+        fields[i].role = role_of(header, names, fields[i].name);
     }
     return OUTCOME_OK;
 }

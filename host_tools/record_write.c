@@ -7,7 +7,9 @@
 static void write_name(FILE* stream, const char* name)
 {
     const size_t length = strlen(name);
-    const bool plain = strcspn(name, ",\" \t#") == length;
+    const bool blank_end =
+        length > 0 && (strchr(" \t", name[0]) != NULL || strchr(" \t", name[length - 1]) != NULL);
+    const bool plain = strcspn(name, ",\"#") == length && !blank_end;
     if (plain) {
         fputs(name, stream);
     } else {

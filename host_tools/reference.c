@@ -161,7 +161,10 @@ reference_inverse_t reference_inverse(const reference_t* reference, double wante
         .reachable_min = next_output(reference, model->input_min),
         .reachable_max = next_output(reference, model->input_max),
     };
-    result.clamped = !(wanted >= result.reachable_min && wanted <= result.reachable_max);
+    // An end of the reachable outputs that was written with 15 digits and read back is still reachable.
+    const double rounding = 1e-14 * fmax(fabs(result.reachable_min), fabs(result.reachable_max));
+    result.clamped =
+        !(wanted >= result.reachable_min - rounding && wanted <= result.reachable_max + rounding);
     if (wanted > present && result.reachable_max > present) {
         result.input = solve(reference, fmin(wanted, result.reachable_max), start, model->input_max);
     } else if (wanted < present && result.reachable_min < present) {

@@ -25,7 +25,7 @@ double reference_output(const reference_t* reference);
 typedef struct {
     double input;
     double reachable_min, reachable_max;
-    bool clamped;
+    bool clamped; ///< `wanted` lies outside them by more than 1e-14 of their magnitude, or is NaN
 } reference_inverse_t;
 /// The input in [input_min, input_max] that gives `wanted` from the present memory; looks, does not commit.
 reference_inverse_t reference_inverse(const reference_t* reference, double wanted);
