@@ -18,6 +18,7 @@ typedef struct {
 } verb_t;
 
 static const verb_t verbs[] = {
+    {"identify", cmd_identify, "fits a model to a measured record"},
     {"simulate", cmd_simulate, "runs a model over a record's input"},
     {"invert", cmd_invert, "finds the input that gives a wanted output"},
 };

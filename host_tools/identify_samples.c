@@ -1,0 +1,149 @@
+#include "identify_samples.h"
+
+#include "model.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A visit within this part of half the range of an end counts: only plays whose radius is within it of the
+/// largest moving one can tell the difference, and those hardly move.
+static const double end_tolerance = 0.02;
+
+static void append(samples_t* samples, const double* input, const double* output, size_t t, double centre,
+                   double half_range)
+{
+    const size_t i = samples->num_samples++;
+    samples->u[i] = (input[t] - centre) / half_range;
+    samples->y[i] = output[t];
+    samples->used[i] = true;
+    samples->index[i] = t;
+}
+
+/// Appends the block's samples of least and largest input in order of time.
+static void append_extremes(samples_t* samples, const double* input, const double* output, size_t from,
+                            size_t to, double centre, double half_range)
+{
+    size_t least = from;
+    size_t largest = from;
+    for (size_t t = from; t < to; t++) {
+        least = input[t] < input[least] ? t : least;
+        largest = input[t] >= input[largest] ? t : largest;
+    }
+    const size_t early = least < largest ? least : largest;
+    const size_t late = least < largest ? largest : least;
+    append(samples, input, output, early, centre, half_range);
+    if (late > early) {
+        append(samples, input, output, late, centre, half_range);
+    }
+}
+
+static size_t first_wiped(const samples_t* samples)
+{
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (size_t i = 0; i < samples->num_samples; i++) {
+        low = fmin(low, samples->u[i]);
+        high = fmax(high, samples->u[i]);
+    }
+    const double near = end_tolerance * 0.5 * (high - low);
+    bool was_low = false;
+    bool was_high = false;
+    for (size_t i = 0; i < samples->num_samples; i++) {
+        was_low = was_low || samples->u[i] <= low + near;
+        was_high = was_high || samples->u[i] >= high - near;
+        if (was_low && was_high) {
+            return i;
+        }
+    }
+    return 0;
+}
+
+samples_t samples_new(const double* input, const double* output, size_t num_samples, double centre,
+                      double half_range, size_t max_samples)
+{
+    const size_t block = num_samples <= max_samples ? 1 : (2 * num_samples + max_samples - 1) / max_samples;
+    const size_t most = block == 1 ? num_samples : 2 * (num_samples / block + 1);
+    samples_t samples = {0};
+    samples.u = xmalloc(most * sizeof *samples.u);
+    samples.y = xmalloc(most * sizeof *samples.y);
+    samples.used = xmalloc(most * sizeof *samples.used);
+    samples.index = xmalloc(most * sizeof *samples.index);
+    for (size_t from = 0; from < num_samples; from += block) {
+        const size_t to = from + block < num_samples ? from + block : num_samples;
+        append_extremes(&samples, input, output, from, to, centre, half_range);
+    }
+    samples.wiped = first_wiped(&samples);
+    return samples;
+}
+
+void samples_free(samples_t* samples)
+{
+    free(samples->u);
+    free(samples->y);
+    free(samples->used);
+    free(samples->index);
+    *samples = (samples_t){0};
+}
+
+void samples_use_from(samples_t* samples, size_t first)
+{
+    for (size_t i = 0; i < samples->num_samples; i++) {
+        samples->used[i] = i >= first;
+    }
+}
+
+/// Pools of the isotonic regression, a stack.
+typedef struct {
+    double sum;
+    double count;
+} pool_t;
+
+/// Adds a value to the pools of a stretch that rises (sign 1) or falls (sign -1).
+static size_t pool_value(pool_t* pool, size_t count, double value, double sign)
+{
+    pool[count++] = (pool_t){value, 1};
+    while (count > 1 && sign * pool[count - 2].sum * pool[count - 1].count >
+                            sign * pool[count - 1].sum * pool[count - 2].count) {
+        pool[count - 2].sum += pool[count - 1].sum;
+        pool[count - 2].count += pool[count - 1].count;
+        count--;
+    }
+    return count;
+}
+
+/// Sum over pools of squared distances = sum of squares - sum of pools' squared sums over counts.
+static double explained(const pool_t* pool, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += pool[i].sum * pool[i].sum / pool[i].count;
+    }
+    return sum;
+}
+
+double monotone_floor(const double* input, const double* output, size_t num_samples, size_t first)
+{
+    pool_t* pool = xmalloc((num_samples + 1) * sizeof *pool);
+    double mean = 0;
+    for (size_t t = first; t < num_samples; t++) {
+        mean += output[t] / (double)(num_samples - first);
+    }
+    double left = 0;
+    size_t pools = 0;
+    double sign = 0;
+    for (size_t t = first; t < num_samples; t++) {
+        const double value = output[t] - mean;
+        const double step = t > first ? input[t] - input[t - 1] : 0;
+        const double direction = step > 0 ? 1 : step < 0 ? -1 : sign;
+        if (direction * sign < 0) {
+            left -= explained(pool, pools);
+            pools = 0;
+        }
+        sign = direction;
+        left += value * value;
+        pools = pool_value(pool, pools, value, sign);
+    }
+    left -= explained(pool, pools);
+    free(pool);
+    return sqrt(fmax(left, 0) / (double)(num_samples - first));
+}
