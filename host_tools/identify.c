@@ -19,12 +19,15 @@ enum { LEAST_SAMPLES = 20 };
 static const double worthwhile_tanh = 0.9;
 static const double worthwhile_table = 0.75;
 
+/// Of the output's range: an error that no richer family needs to improve on.
+static const double good_enough = 1e-4;
+
 /// Just enough to choose between weights that the record hardly tells apart: raises no fit's error by 1 %.
 static const double smoothness = 1e-3;
 
-/// Net loop area, as a part of the area traversed, from which a loop counts as clockwise rather than as
-/// noise.
-static const double clockwise_sense = 0.05;
+/// Half a loop's mean width, as a part of the output's range, from which it counts as clockwise rather than
+/// as noise.
+static const double clockwise_sense = 0.002;
 
 typedef struct {
     const char* path;
@@ -252,14 +255,15 @@ static outcome_t try_family(const problem_t* p, families_t* f, size_t index)
 }
 
 /// The simplest family that no richer one beats clearly.
-static size_t choose_family(const families_t* f, identify_envelope_t envelope)
+static size_t choose_family(const families_t* f, identify_envelope_t envelope, double output_range)
 {
     size_t chosen = NUM_FAMILIES;
     for (size_t i = 0; i < NUM_FAMILIES; i++) {
         const bool allowed = f->tried[i] && (envelope != IDENTIFY_TABLE || family[i].envelope == CURVE_TABLE);
         const bool has_table = family[i].envelope == CURVE_TABLE || family[i].nonhysteretic == CURVE_TABLE;
         const double worthwhile = has_table ? worthwhile_table : worthwhile_tanh;
-        if (allowed && (chosen == NUM_FAMILIES || f->fit[i].rmse < worthwhile * f->fit[chosen].rmse)) {
+        if (allowed && (chosen == NUM_FAMILIES || (f->fit[chosen].rmse > good_enough * output_range &&
+                                                   f->fit[i].rmse < worthwhile * f->fit[chosen].rmse))) {
             chosen = i;
         }
     }
@@ -288,7 +292,7 @@ static outcome_t search_families(const problem_t* p, families_t* f, identify_res
             (identify_candidate_t){family[i].envelope, family[i].nonhysteretic, f->fit[i].rmse};
     }
     message_progress_done();
-    *chosen = choose_family(f, p->options->envelope);
+    *chosen = choose_family(f, p->options->envelope, p->output_range);
     return outcome;
 }
 
@@ -321,23 +325,21 @@ static model_t build_model(const problem_t* p, const fit_t* fit)
     return model;
 }
 
-/// Sum of y du over the fitted samples, relative to that of |y - mean| |du|: negative for a loop whose
-/// ascending branch lies below the descending one, as any play's does.
+/// Mean of y, weighted by du: negative for a loop whose ascending branch lies below the descending one, as
+/// any play's does. Half the loop's mean width, in output units.
 static double loop_sense(const problem_t* p, size_t first)
 {
-    double mean = 0;
-    for (size_t t = first; t < p->num_samples; t++) {
-        mean += p->output[t] / (double)(p->num_samples - first);
-    }
     double area = 0;
-    double size = 0;
+    double travel = 0;
+    const double closing = p->input[first] - p->input[p->num_samples - 1];
     for (size_t t = first + 1; t < p->num_samples; t++) {
-        const double y = 0.5 * (p->output[t] + p->output[t - 1]) - mean;
         const double step = p->input[t] - p->input[t - 1];
-        area += y * step;
-        size += fabs(y * step);
+        area += 0.5 * (p->output[t] + p->output[t - 1]) * step;
+        travel += fabs(step);
     }
-    return size > 0 ? area / size : 0;
+    // The way back along the straight chord closes the path, so that an offset of y cancels.
+    area += 0.5 * (p->output[first] + p->output[p->num_samples - 1]) * closing;
+    return area / (travel + fabs(closing));
 }
 
 /// Figures of the finished model over the whole record.
@@ -357,7 +359,7 @@ static void measure(const problem_t* p, identify_result_t* result)
     result->relative = result->rmse / p->output_range;
     result->output_range = p->output_range;
     result->num_samples = p->num_samples;
-    result->clockwise = loop_sense(p, result->first_fitted) > clockwise_sense;
+    result->clockwise = loop_sense(p, result->first_fitted) > clockwise_sense * p->output_range;
     result->monotone_floor = monotone_floor(p->input, p->output, p->num_samples, result->first_fitted);
 }
 

@@ -26,8 +26,9 @@ typedef struct {
     double* mean;   ///< [columns]
     double* target; ///< [rows] centred output
     double target_mean;
-    double* scratch;   ///< [(rows + rows_below) * (columns + 1)] destroyed by the least squares
-    double* solution;  ///< [columns]
+    double* scratch;  ///< [(rows + rows_below) * (columns + 1)] destroyed by the least squares
+    double* solution; ///< [columns]
+    double excited; ///< half of what the samples sweep of the envelopes: beyond it no radius is tried by them
     outcome_t outcome; ///< first failure of an evaluation
 } work_t;
 
@@ -141,12 +142,17 @@ static void evaluate_curves(work_t* w, const double* theta)
     const shape_t* shape = w->fit->shape;
     shape_raw(shape, theta, w->raw);
     double crossing = 0;
+    double highest = -HUGE_VAL;
+    double lowest = HUGE_VAL;
     for (size_t t = 0; t < w->samples->num_samples; t++) {
         const double u = w->samples->u[t];
         w->ascending[t] = shape_ascending(shape, w->raw, u, w->place[t], NULL);
         w->descending[t] = shape_descending(shape, w->raw, u, w->place[t], NULL);
         crossing = fmax(crossing, w->ascending[t] - w->descending[t]);
+        highest = fmax(highest, w->ascending[t]);
+        lowest = fmin(lowest, w->descending[t]);
     }
+    w->excited = 0.5 * (highest - lowest);
     for (size_t k = 0; k < shape->num_knots; k++) {
         crossing = fmax(crossing, envelope_at_end(w, true, shape->knot[k], NULL) -
                                       envelope_at_end(w, false, shape->knot[k], NULL));
@@ -240,8 +246,10 @@ static void centre_columns(work_t* w)
             low = fmin(low, column[row]);
             high = fmax(high, column[row]);
         }
-        // A play that no used sample sees move is a constant, not a column of rounding errors.
-        const bool moves = high - low > 1e-9;
+        // A play that no used sample sees move is a constant, not a column of rounding errors; one beyond
+        // what the samples sweep moves, if at all, by what was assumed of the past.
+        const bool tried = c >= w->fit->num_plays || w->fit->radius[c] < w->excited;
+        const bool moves = tried && high - low > 1e-9;
         for (size_t row = 0; row < w->rows; row++) {
             column[row] = moves ? column[row] - mean : 0;
         }
@@ -273,13 +281,14 @@ static void fill_matrix(work_t* w)
     centre_columns(w);
 }
 
-/// Second differences of the weights over the radii; beyond the largest radius the weight is taken to stay as
-/// it is. A play of radius 0 is the envelope itself, with a weight of its own kind.
+/// Second differences of the weights over the radii that the samples move; beyond the largest of these the
+/// weight is taken to stay as it is. A play of radius 0 is the envelope itself, with a weight of its own
+/// kind.
 static void add_smoothness(work_t* w, size_t height, double factor)
 {
     const size_t first = w->fit->shape->envelope == CURVE_LINEAR ? 1 : 2;
-    for (size_t j = first; j < w->fit->num_plays; j++) {
-        const bool last = j + 1 == w->fit->num_plays;
+    for (size_t j = first; j < w->fit->num_plays && w->fit->moved[j]; j++) {
+        const bool last = j + 1 == w->fit->num_plays || !w->fit->moved[j + 1];
         double* row = &w->scratch[w->rows + w->columns + j];
         row[(j - 1) * height] = factor;
         row[j * height] = last ? -factor : -2 * factor;

@@ -219,6 +219,12 @@ outcome_t nnls_solve(double* a, size_t rows, size_t columns, double* b, double* 
         // x = 0 with a non-empty passive set: the first settle keeps those of the former set that stay
         // positive.
         outcome = iterate(&t, scale, x, passive, info);
+        if (outcome != OUTCOME_OK) {
+            // A foreign set can hold dependent columns, which the method itself never frees together.
+            memset(passive, 0, columns * sizeof *passive);
+            memset(x, 0, columns * sizeof *x);
+            outcome = iterate(&t, scale, x, passive, info);
+        }
     } else {
         memset(passive, 0, columns * sizeof *passive);
     }
