@@ -45,9 +45,9 @@ static void test_range(void)
 {
     model.input_max = 30.0;
     assert_fault("input", "max", -1);
-    model.input_max = INFINITY;
+    model.input_max = (double)INFINITY;
     assert_fault("input", "max", -1);
-    model.input_min = NAN;
+    model.input_min = (double)NAN;
     assert_fault("input", "min", -1);
     model.input_min = -1e308;
     model.input_max = 1e308;
@@ -56,7 +56,7 @@ static void test_range(void)
 
 static void test_envelopes(void)
 {
-    model.descending.gain = NAN;
+    model.descending.gain = (double)NAN;
     assert_fault("descending", "gain", -1);
     model.descending.gain = -1.0;
     assert_fault("descending", "slope", -1);
@@ -92,7 +92,7 @@ static void test_plays(void)
 {
     model.weight[1] = -1e-9;
     assert_fault("weights", NULL, 1);
-    model.weight[1] = INFINITY;
+    model.weight[1] = (double)INFINITY;
     assert_fault("weights", NULL, 1);
     model.weight[0] = 1e308;
     model.weight[1] = 1e308;
@@ -174,7 +174,7 @@ static void test_initial_states(void)
     model.initial[0] = 90.2;
     model.initial[1] = 90.2;
     assert_fault("initial", NULL, 0);
-    model.initial[0] = NAN;
+    model.initial[0] = (double)NAN;
     assert_fault("initial", NULL, 0);
 }
 

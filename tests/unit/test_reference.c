@@ -132,7 +132,7 @@ static void test_inverse_range_and_clamping(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, high.reachable_min);
     TEST_ASSERT_TRUE(high.clamped);
     TEST_ASSERT_EQUAL_DOUBLE(4.0, high.input);
-    const reference_inverse_t nothing = reference_inverse(&run, NAN);
+    const reference_inverse_t nothing = reference_inverse(&run, (double)NAN);
     TEST_ASSERT_TRUE(nothing.clamped);
     TEST_ASSERT_EQUAL_DOUBLE(2.0, nothing.input);
     TEST_ASSERT_EQUAL_DOUBLE(2.0, run.input);
