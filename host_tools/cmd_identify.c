@@ -21,13 +21,14 @@ typedef struct {
     int json;
 } options_t;
 
-static const char* memory_name(identify_memory_t memory)
+/// "left-out", "estimated", or the saturation that was recognised.
+static const char* memory_name(const identify_result_t* result)
 {
-    switch (memory) {
+    switch (result->memory) {
     case MEMORY_LEFT_OUT:
         return "left-out";
     case MEMORY_ASSUMED:
-        return "assumed";
+        return result->start == START_POSITIVE_SATURATION ? "positive-saturation" : "negative-saturation";
     case MEMORY_ESTIMATED:
         return "estimated";
     }
@@ -85,7 +86,7 @@ static json_t* identification_of(const identify_result_t* result)
     return json_pack("{s:f, s:f, s:f, s:f, s:I, s:I, s:s, s:o}", "rmse", result->rmse, "relative",
                      result->relative, "max_error", result->max_error, "monotone_floor",
                      result->monotone_floor, "samples", (json_int_t)result->num_samples, "first_fitted",
-                     (json_int_t)result->first_fitted, "memory", memory_name(result->memory), "undetermined",
+                     (json_int_t)result->first_fitted, "memory", memory_name(result), "undetermined",
                      undetermined_of(result));
 }
 

@@ -59,12 +59,15 @@ static double stretch_rmse(const start_plan_t* plan, const fit_t* fit, const sam
 
 void start_try_assumptions(start_plan_t* plan, fit_t* fit, samples_t* samples)
 {
-    static const start_t assumption[] = {START_NEGATIVE_SATURATION, START_POSITIVE_SATURATION};
-    double best = 1.5 * fit->rmse;
+    // The nearer end first: where both explain the stretch alike, it is the likelier past.
+    const bool low = samples->u[0] <= 0;
+    const start_t assumption[] = {low ? START_NEGATIVE_SATURATION : START_POSITIVE_SATURATION,
+                                  low ? START_POSITIVE_SATURATION : START_NEGATIVE_SATURATION};
+    double limit = 1.5 * fit->rmse;
     for (size_t i = 0; i < 2; i++) {
         const double rmse = samples->wiped > 0 ? stretch_rmse(plan, fit, samples, assumption[i]) : 0;
-        if (rmse <= best) {
-            best = rmse;
+        if (rmse <= limit) {
+            limit = 0.9 * rmse;
             plan->start = assumption[i];
             plan->leave_out = false;
         }
