@@ -13,20 +13,14 @@ typedef struct {
     float middle;
     uint32_t cell_above; ///< holds the alternation's top
     uint32_t cell_below; ///< holds its bottom
+    bool at_top;         ///< the alternation has reached input_max
+    bool at_bottom;      ///< and input_min
     span_t span;
 } walk_t;
 
 static float opening(const span_t span)
 {
     return span.ascending - span.descending;
-}
-
-static span_t full_span(const hyst_f32_model_t* model)
-{
-    const uint32_t last_cell = model->num_knots == 0 ? 0 : model->num_knots - 2;
-    const span_t span = {hyst_f32_envelope(model, last_cell, model->input_max, true),
-                         hyst_f32_envelope(model, 0, model->input_min, false)};
-    return span;
 }
 
 static float upper_end(const walk_t* walk)
@@ -40,27 +34,29 @@ static float lower_end(const walk_t* walk)
     return walk->model->num_knots == 0 ? walk->model->input_min : walk->model->knot[walk->cell_below].input;
 }
 
-/// Widens the alternation to the nearer of the next knots above and below. False when that is the whole
-/// range.
-static bool widen(walk_t* walk)
+/// Widens the alternation to the nearer of the next knots above and below. Rounding of the middle may bring
+/// one end of the range before the other: that side then stays there.
+static void widen(walk_t* walk)
 {
     const hyst_f32_model_t* model = walk->model;
-    const float above = upper_end(walk) - walk->middle;
-    const float below = walk->middle - lower_end(walk);
-    const bool up_to_knot = above <= below;
-    const bool down_to_knot = below <= above;
+    const float above = walk->at_top ? FLT_MAX : upper_end(walk) - walk->middle;
+    const float below = walk->at_bottom ? FLT_MAX : walk->middle - lower_end(walk);
+    const bool up_to_knot = walk->at_top || above <= below;
+    const bool down_to_knot = walk->at_bottom || below <= above;
     const float top = up_to_knot ? upper_end(walk) : walk->middle + below;
     const float bottom = down_to_knot ? lower_end(walk) : walk->middle - above;
     walk->span.ascending = hyst_f32_envelope(model, walk->cell_above, top, true);
     walk->span.descending = hyst_f32_envelope(model, walk->cell_below, bottom, false);
-    const bool at_top = up_to_knot && walk->cell_above + 2 >= model->num_knots;
-    const bool at_bottom = down_to_knot && walk->cell_below == 0;
-    if (at_top || at_bottom) {
-        return false;
+    if (up_to_knot && walk->cell_above + 2 >= model->num_knots) {
+        walk->at_top = true;
+    } else if (up_to_knot) {
+        ++walk->cell_above;
     }
-    walk->cell_above += up_to_knot ? 1u : 0u;
-    walk->cell_below -= down_to_knot ? 1u : 0u;
-    return true;
+    if (down_to_knot && walk->cell_below == 0) {
+        walk->at_bottom = true;
+    } else if (down_to_knot) {
+        --walk->cell_below;
+    }
 }
 
 /// Play r follows the alternation until its amplitude has shrunk so far that ascending(top) -
@@ -71,22 +67,20 @@ static void demagnetise(const hyst_f32_model_t* model, hyst_f32_state_t* state)
 {
     const float middle = hyst_f32_middle(model);
     const uint32_t cell = hyst_f32_find_cell(model, 0, middle);
-    walk_t walk = {model, middle, cell, cell, {0.0f, 0.0f}};
+    walk_t walk = {model, middle, cell, cell, false, false, {0.0f, 0.0f}};
     walk.span.ascending = hyst_f32_envelope(model, cell, middle, true);
     walk.span.descending = hyst_f32_envelope(model, cell, middle, false);
     span_t inner = walk.span;
-    bool more = true;
     for (uint32_t j = 0; j < model->num_plays; ++j) {
         const float radius = model->radius[j];
-        while (more && opening(walk.span) < 2.0f * radius) {
+        while (!(walk.at_top && walk.at_bottom) && opening(walk.span) < 2.0f * radius) {
             inner = walk.span;
-            more = widen(&walk);
+            widen(&walk);
         }
         const span_t outer = walk.span;
         const float gap = opening(outer) - opening(inner);
         if (opening(outer) < 2.0f * radius) {
-            const span_t full = full_span(model);
-            state->memory[j] = 0.5f * full.ascending + 0.5f * full.descending;
+            state->memory[j] = 0.5f * outer.ascending + 0.5f * outer.descending;
         } else if (gap > 0.0f) {
             const float part = hyst_f32_limit((2.0f * radius - opening(inner)) / gap, 0.0f, 1.0f);
             state->memory[j] = inner.ascending + part * (outer.ascending - inner.ascending) - radius;
@@ -99,7 +93,8 @@ static void demagnetise(const hyst_f32_model_t* model, hyst_f32_state_t* state)
 
 static void saturate_positive(const hyst_f32_model_t* model, hyst_f32_state_t* state)
 {
-    const float envelope = full_span(model).ascending;
+    const uint32_t last_cell = model->num_knots == 0 ? 0 : model->num_knots - 2;
+    const float envelope = hyst_f32_envelope(model, last_cell, model->input_max, true);
     for (uint32_t j = 0; j < model->num_plays; ++j) {
         state->memory[j] = hyst_f32_pushed(envelope, model->radius[j], true);
     }
