@@ -171,6 +171,8 @@ static void test_initial_states(void)
     TEST_ASSERT_NULL(model_check(&model).key);
     model.initial[1] = 50.3;
     assert_fault("initial", NULL, 1);
+    model.initial[1] = 49.7;
+    assert_fault("initial", NULL, 1);
     model.initial[0] = 90.2;
     model.initial[1] = 90.2;
     assert_fault("initial", NULL, 0);

@@ -124,6 +124,31 @@ static void test_inverse_takes_the_nearest_on_a_flat_stretch(void)
     TEST_ASSERT_DOUBLE_WITHIN(9e-16, -0.5, reference_inverse(&run, 11.0).input);
 }
 
+static void test_inverse_takes_the_near_end_of_a_flat_stretch(void)
+{
+    const double x[] = {-4.0, 1.0, 3.0, 4.0};
+    const double y[] = {-4.0, 1.0, 1.0, 2.0};
+    model.nonhysteretic = curve_table(x, y, 4);
+    model.weight[0] = 0.0;
+    model.weight[1] = 0.0;
+    run = reference_new(&model, START_NEGATIVE_SATURATION, 0.0);
+    // The last bit of an input of 4 at most.
+    TEST_ASSERT_DOUBLE_WITHIN(9e-16, 1.0, reference_inverse(&run, 1.0).input);
+    reference_step(&run, 4.0);
+    TEST_ASSERT_DOUBLE_WITHIN(9e-16, 3.0, reference_inverse(&run, 1.0).input);
+}
+
+static void test_inverse_clamps_to_the_near_end_of_a_flat_stretch(void)
+{
+    model.nonhysteretic = curve_tanh(20.0, 0.0);
+    model.weight[0] = 0.0;
+    model.weight[1] = 0.0;
+    run = reference_new(&model, START_NEGATIVE_SATURATION, 0.0);
+    // 1 - tanh(x) = 2 exp(-2 x) is below half an ulp of 1 from x = 19.1 on.
+    TEST_ASSERT_TRUE(reference_inverse(&run, 1000.0).input < 1.0);
+    TEST_ASSERT_TRUE(reference_inverse(&run, -1000.0).input > -1.0);
+}
+
 static void test_inverse_range_and_clamping(void)
 {
     run = reference_new(&model, START_NEGATIVE_SATURATION, 2.0);
@@ -168,6 +193,8 @@ int main(void)
     RUN_TEST(test_own_initial_states);
     RUN_TEST(test_step_by_hand);
     RUN_TEST(test_inverse_takes_the_nearest_on_a_flat_stretch);
+    RUN_TEST(test_inverse_takes_the_near_end_of_a_flat_stretch);
+    RUN_TEST(test_inverse_clamps_to_the_near_end_of_a_flat_stretch);
     RUN_TEST(test_inverse_range_and_clamping);
     RUN_TEST(test_inverse_from_beyond_the_range);
     RUN_TEST(test_run_of_no_samples);
