@@ -95,7 +95,9 @@ outcome_t command_parse(const command_t* command, const struct poptOption* optio
     memcpy(renamed, argv, (size_t)argc * sizeof *renamed);
     renamed[0] = invocation;
     poptContext context = poptGetContext(NULL, argc, renamed, all, 0);
-    poptSetOtherOptionHelp(context, command->arguments);
+    char usage[64];
+    (void)snprintf(usage, sizeof usage, "[OPTION...] %s", command->arguments);
+    poptSetOtherOptionHelp(context, usage);
     const outcome_t outcome = parse(command, options, context, argc, argv, arguments, finished);
     poptFreeContext(context);
     free(renamed);
