@@ -5,7 +5,8 @@
 #include "message.h"
 #include "model.h"
 
-/// Reads and checks a model; "-" is stdin. Every fault is reported with line and column; *model is then empty.
+/// Reads and checks a model; "-" is stdin. Every fault is reported with line and column; *model is then
+/// empty.
 outcome_t model_read(const char* path, model_t* model);
 /// Writes it whole or not at all; "-" is stdout. The bytes depend on the model alone.
 outcome_t model_write(const char* path, const model_t* model);

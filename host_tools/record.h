@@ -12,19 +12,19 @@ typedef struct {
 } column_t;
 
 typedef struct {
-    char* path;           ///< for messages: as given, stdin's is <stdin>
+    char* path; ///< for messages: as given, stdin's is <stdin>
     size_t num_samples;
-    double* time;         ///< [s], strictly increasing; NULL when the record has none and no sample rate was given
-    double* input;        ///< NULL only when not required
-    double* output;       ///< NULL only when not required
+    double* time;   ///< [s], strictly increasing; NULL when the record has none and no sample rate was given
+    double* input;  ///< NULL only when not required
+    double* output; ///< NULL only when not required
     size_t num_auxiliary;
-    column_t* auxiliary;  ///< numeric columns beyond those three, in file order
+    column_t* auxiliary; ///< numeric columns beyond those three, in file order
 } record_t;
 
 typedef struct {
-    const char* columns;  ///< --columns "time=t,input=volts,output=um", or NULL
-    double sample_rate;   ///< --sample-rate [Hz], 0: not given
-    bool needs_input;     ///< a missing column is an error only when needed
+    const char* columns; ///< --columns "time=t,input=volts,output=um", or NULL
+    double sample_rate;  ///< --sample-rate [Hz], 0: not given
+    bool needs_input;    ///< a missing column is an error only when needed
     bool needs_output;
 } record_options_t;
 
@@ -38,8 +38,9 @@ typedef struct {
     const double* value;
     bool integer;
 } record_column_t;
-/// Writes columns side by side as CSV, numbers as short as they read back the same (%.9g suffices for measured
-/// data; %.17g is never needed). Whole or not at all; "-" is stdout.
-outcome_t record_write(const char* path, const record_column_t* columns, size_t num_columns, size_t num_samples);
+/// Writes columns side by side as CSV, numbers as short as they read back the same (%.9g suffices for
+/// measured data; %.17g is never needed). Whole or not at all; "-" is stdout.
+outcome_t record_write(const char* path, const record_column_t* columns, size_t num_columns,
+                       size_t num_samples);
 
 #endif
