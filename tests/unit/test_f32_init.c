@@ -156,6 +156,20 @@ static void test_an_envelope_may_be_flat_somewhere_but_not_everywhere(void)
     assert_refused(HYST_STATUS_ENVELOPE);
 }
 
+/// A slope that underflows is off by half the least subnormal, times the width far more than FLT_EPSILON of
+/// the rise.
+static void test_slopes_that_underflow(void)
+{
+    const hyst_f32_knot_t tiny[] = {
+        {.input = 0.0F},
+        {.input = 60.0F, .ascending = 1.0F, .descending = 1.0F, .nonhysteretic = 1e-43F},
+    };
+    f32_model_t made = f32_tabulated(radius, weight, 3, tiny, 2, 0.0F);
+    TEST_ASSERT_TRUE(fabsf(made.knot[0].nonhysteretic_slope * 60.0F - 1e-43F) > 1e-44F);
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&made.model, &state, memory, 3));
+    f32_free(&made);
+}
+
 static void test_envelope_order(void)
 {
     for (int k = 0; k < 3; ++k) {
@@ -213,6 +227,7 @@ int main(void)
     RUN_TEST(test_knots);
     RUN_TEST(test_curves);
     RUN_TEST(test_an_envelope_may_be_flat_somewhere_but_not_everywhere);
+    RUN_TEST(test_slopes_that_underflow);
     RUN_TEST(test_envelope_order);
     RUN_TEST(test_output_range);
     RUN_TEST(test_classical);

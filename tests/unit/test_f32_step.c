@@ -177,6 +177,26 @@ static void test_every_move_between_cells(void)
     f32_free(&made);
 }
 
+/// Also the last knot, which no cell begins at: slope times width would miss it by rounding one time in
+/// three.
+static void test_exact_at_both_ends(void)
+{
+    const float radius = 0.0F;
+    const float weight = 1.0F;
+    random_t random = random_new(1);
+    for (int i = 0; i < 100; ++i) {
+        hyst_f32_knot_t knot[2] = {{.input = (float)random_uniform(&random, -2.0, -1.0)},
+                                   {.input = (float)random_uniform(&random, 1.0, 2.0)}};
+        knot[0].ascending = knot[0].descending = (float)random_uniform(&random, -2.0, -1.0);
+        knot[1].ascending = knot[1].descending = (float)random_uniform(&random, 1.0, 2.0);
+        f32_model_t made = f32_tabulated(&radius, &weight, 1, knot, 2, 0.0F);
+        hyst_f32_state_t state = f32_state(&made);
+        assert_step(knot[1].ascending, &made, &state, knot[1].input);
+        assert_step(knot[0].descending, &made, &state, knot[0].input);
+        f32_free(&made);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -191,5 +211,6 @@ int main(void)
     RUN_TEST(test_counters_saturate);
     RUN_TEST(test_resets_by_hand);
     RUN_TEST(test_every_move_between_cells);
+    RUN_TEST(test_exact_at_both_ends);
     return UNITY_END();
 }

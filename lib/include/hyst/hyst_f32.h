@@ -98,7 +98,7 @@ HYST_NODISCARD hyst_status_t hyst_f32_save(const hyst_f32_model_t* model, const 
 /// Puts a saved past back. Counters are kept. Refuses with HYST_STATUS_SNAPSHOT, changing nothing, what this model
 /// cannot have been in: an input out of range or not finite, a play outside
 /// [ascending(input) - r, descending(input) + r], or states further apart than their radii (beyond rounding).
-/// Also NULL_POINTER, MEMORY_LENGTH. Time O(num_plays).
+/// Also NULL_POINTER, MEMORY_LENGTH. Time O(num_plays + log num_knots).
 HYST_NODISCARD hyst_status_t hyst_f32_restore(const hyst_f32_model_t* model, hyst_f32_state_t* state,
                                               const float* snapshot, size_t length);
 
