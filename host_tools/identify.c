@@ -313,8 +313,11 @@ static model_t build_model(const problem_t* p, const fit_t* fit)
     model.descending = shape_curve_descending(fit->shape, raw, p->centre, p->half_range);
     double constant = fit->constant;
     model_set_num_plays(&model, fit->num_plays);
+    // The search saw the envelopes at the samples and knots only; between them they may come closer by a
+    // trifle.
+    const double least = model_least_radius(&model);
     for (size_t j = 0; j < fit->num_plays; j++) {
-        model.radius[j] = scale * fit->radius[j];
+        model.radius[j] = fmax(scale * fit->radius[j], least);
         model.weight[j] = fit->weight[j] / scale;
         // The scaled identity is (v - centre) / half_range.
         constant -= fit->shape->envelope == CURVE_LINEAR ? fit->weight[j] * p->centre / scale : 0;
