@@ -20,6 +20,12 @@ check() { # COMPILER STANDARD LANGUAGE
         echo "skipped: no $1"
         return
     fi
+    # shellcheck disable=SC2086
+    if ! printf 'int main(void) { return 0; }\n' | "$1" ${HYST_CODEGEN_FLAGS:-} -x "$3" - -o "$scratch/empty" 2> /dev/null
+    then
+        echo "skipped: $1 cannot link with ${HYST_CODEGEN_FLAGS:-}"
+        return
+    fi
     num_compilers=$((num_compilers + 1))
     # shellcheck disable=SC2086
     "$1" "-std=$2" $strict ${HYST_CODEGEN_FLAGS:-} -I"$include" -I"$scratch" '-DHEADER="subject.h"' -x "$3" \
