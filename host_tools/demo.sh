@@ -29,10 +29,12 @@ if [ -z "$record" ]; then
     record=$out/vo2_film.csv
     sh host_tools/demo/vo2_film_record.sh "$hyst" >"$record"
     echo "record: the VO2 film (envelopes of Zhang et al. 2015, Table 6; weights ours), noise 0.005 on the output"
-    set -- --name vo2_film --input-unit degC --output-unit "-log10(ohm)"
+    name=vo2_film
+    set -- --input-unit degC --output-unit "-log10(ohm)"
     range="--input-range 30,90"
 else
-    set -- --name demo
+    name=demo
+    set --
     range=""
 fi
 "$hyst" --version
@@ -40,23 +42,23 @@ fi
 figure() { # figure KEY FILE: the number behind a key of a JSON result
     sed -n "s/.*\"$1\": *\([-0-9.e+]*\).*/\1/p" "$2" | head -n 1
 }
-macro() { # macro NAME: the value of the header's macro MODEL_NAME
-    sed -n "s/^#define MODEL_$1 *//p" "$out/model.h"
+macro() { # macro NAME: the number that the header gives under it
+    sed -n "s/^#define [A-Z0-9_]*_$1 *\([-0-9.e+]*\).*/\1/p" "$out/$name.h" | head -n 1
 }
 
 # shellcheck disable=SC2086
-"$hyst" identify "$record" -o "$out/full.json" --json $range "$@" >"$out/identify.json"
+"$hyst" identify "$record" -o "$out/full.json" --name "$name" --json $range "$@" >"$out/identify.json"
 "$hyst" simulate "$out/full.json" "$record" -o "$out/full.csv" --json >"$out/full_fit.json"
 "$hyst" compress "$out/full.json" --plays $plays --cost entropy-sum -o "$out/small.json" --json >"$out/compress.json"
 "$hyst" simulate "$out/small.json" "$record" -o "$out/small.csv" --json >"$out/small_fit.json"
 "$hyst" invert "$out/small.json" "$record" -o "$out/inverse.csv" --json >"$out/inverse.json"
-"$hyst" emit "$out/small.json" -o "$out/model.h" --symbol model
+"$hyst" emit "$out/small.json" -o "$out/$name.h" --symbol "$name"
 
 run_firmware() { # run_firmware PRESET BUILD-FOLDER RUN...: builds the self-test and prints what it says
     preset=$1 folder=$2
     shift 2
     cmake --preset "$preset" -B "$folder" -DHYST_BUILD_HOST_TOOLS=OFF -DHYST_BUILD_TESTS=OFF \
-        -DHYST_MODEL_HEADER="$root/$out/model.h" -DHYST_MODEL_SYMBOL=model >"$out/firmware.log" 2>&1 &&
+        -DHYST_MODEL_HEADER="$root/$out/$name.h" -DHYST_MODEL_SYMBOL="$name" >"$out/firmware.log" 2>&1 &&
         cmake --build "$folder" >>"$out/firmware.log" 2>&1 || { cat "$out/firmware.log" >&2; exit 1; }
     "$@"
 }
@@ -95,4 +97,4 @@ else
     cat "$out/target_missing.txt"
 fi
 echo
-echo "files in $out: $(basename "$record"), full.json, small.json, model.h, full.csv, small.csv, inverse.csv"
+echo "files in $out: $(basename "$record"), full.json, small.json, $name.h, full.csv, small.csv, inverse.csv"

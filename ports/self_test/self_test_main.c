@@ -9,7 +9,7 @@
 
 enum { NUM_FORWARD = 20000, NUM_INVERSE = 2000, NUM_TIMED = 4096 };
 
-static float memory[MODEL_NUM_PLAYS];
+static float memory[TESTED_MODEL_NUM_PLAYS];
 static hyst_f32_state_t state;
 static float timed_input[NUM_TIMED];
 static float timed_wanted[NUM_TIMED];
@@ -23,7 +23,7 @@ static float within(const float low, const float high, const float part)
 
 static float input_at(const float part)
 {
-    return within(MODEL.input_min, MODEL.input_max, part);
+    return within(TESTED_MODEL.input_min, TESTED_MODEL.input_max, part);
 }
 
 static bool report(const char* what, const bool passed)
@@ -35,18 +35,18 @@ static bool report(const char* what, const bool passed)
 
 static bool check_model(void)
 {
-    const hyst_status_t status = hyst_f32_init(&MODEL, &state, memory, MODEL_NUM_PLAYS);
+    const hyst_status_t status = hyst_f32_init(&TESTED_MODEL, &state, memory, TESTED_MODEL_NUM_PLAYS);
     const bool passed = report("model:      ", status == HYST_STATUS_OK);
-    port_print(", " MODEL_NAME ", ");
-    print_unsigned(MODEL.num_plays);
+    port_print(", " TESTED_MODEL_NAME ", ");
+    print_unsigned(TESTED_MODEL.num_plays);
     port_print(" plays, ");
-    print_unsigned(MODEL.num_knots);
+    print_unsigned(TESTED_MODEL.num_knots);
     port_print(" knots, RAM ");
-    print_unsigned(MODEL_RAM_BYTES);
+    print_unsigned(TESTED_MODEL_RAM_BYTES);
     port_print(" bytes, flash ");
-    print_unsigned(MODEL_FLASH_BYTES);
+    print_unsigned(TESTED_MODEL_FLASH_BYTES);
     port_print(" bytes and ");
-    print_unsigned(MODEL_GOLDEN_FLASH_BYTES);
+    print_unsigned(TESTED_MODEL_GOLDEN_FLASH_BYTES);
     port_print(" for the golden vectors\n");
     if (!passed) {
         port_print(hyst_status_text(status));
@@ -57,10 +57,10 @@ static bool check_model(void)
 
 static bool check_golden(void)
 {
-    const bool passed =
-        report("self-test:  ", hyst_f32_self_test(&MODEL, &state, &MODEL_GOLDEN) == HYST_STATUS_OK);
+    const bool passed = report(
+        "self-test:  ", hyst_f32_self_test(&TESTED_MODEL, &state, &TESTED_MODEL_GOLDEN) == HYST_STATUS_OK);
     port_print(", ");
-    print_unsigned(MODEL_GOLDEN.num_steps);
+    print_unsigned(TESTED_MODEL_GOLDEN.num_steps);
     port_print(" golden vectors\n");
     return passed;
 }
@@ -80,39 +80,41 @@ static float larger(const float a, const float b)
 /// that, and the input by 10 u of its magnitude and width, times the steepest slope.
 static float round_trip_bound(void)
 {
-    float envelope = larger(magnitude(MODEL.input_min), magnitude(MODEL.input_max));
+    float envelope = larger(magnitude(TESTED_MODEL.input_min), magnitude(TESTED_MODEL.input_max));
     float slope = 1.0f;
-    float nonhysteretic = MODEL.nonhysteretic_slope * envelope;
-    float nonhysteretic_slope = MODEL.nonhysteretic_slope;
-    if (MODEL.num_knots != 0) {
+    float nonhysteretic = TESTED_MODEL.nonhysteretic_slope * envelope;
+    float nonhysteretic_slope = TESTED_MODEL.nonhysteretic_slope;
+    if (TESTED_MODEL.num_knots != 0) {
         envelope = slope = nonhysteretic = nonhysteretic_slope = 0.0f;
     }
-    for (uint32_t k = 0; k < MODEL.num_knots; ++k) {
-        const hyst_f32_knot_t* knot = &MODEL.knot[k];
+    for (uint32_t k = 0; k < TESTED_MODEL.num_knots; ++k) {
+        const hyst_f32_knot_t* knot = &TESTED_MODEL.knot[k];
         envelope = larger(envelope, larger(magnitude(knot->ascending), magnitude(knot->descending)));
         nonhysteretic = larger(nonhysteretic, magnitude(knot->nonhysteretic));
-        if (k + 1 < MODEL.num_knots) {
+        if (k + 1 < TESTED_MODEL.num_knots) {
             slope = larger(slope, larger(knot->ascending_slope, knot->descending_slope));
             nonhysteretic_slope = larger(nonhysteretic_slope, knot->nonhysteretic_slope);
         }
     }
-    float terms = magnitude(MODEL.constant) + nonhysteretic;
+    float terms = magnitude(TESTED_MODEL.constant) + nonhysteretic;
     float weights = 0.0f;
-    for (uint32_t j = 0; j < MODEL.num_plays; ++j) {
-        terms += MODEL.weight[j] * (envelope + MODEL.radius[j]);
-        weights += MODEL.weight[j];
+    for (uint32_t j = 0; j < TESTED_MODEL.num_plays; ++j) {
+        terms += TESTED_MODEL.weight[j] * (envelope + TESTED_MODEL.radius[j]);
+        weights += TESTED_MODEL.weight[j];
     }
-    const float input =
-        larger(magnitude(MODEL.input_min), magnitude(MODEL.input_max)) + (MODEL.input_max - MODEL.input_min);
-    return FLT_EPSILON * (2.0f * ((float)MODEL.num_plays + 12.0f) * terms +
+    const float input = larger(magnitude(TESTED_MODEL.input_min), magnitude(TESTED_MODEL.input_max)) +
+                        (TESTED_MODEL.input_max - TESTED_MODEL.input_min);
+    return FLT_EPSILON * (2.0f * ((float)TESTED_MODEL.num_plays + 12.0f) * terms +
                           5.0f * (weights * slope + nonhysteretic_slope) * input);
 }
 
 /// Follows wanted outputs over all that can be reached, each answer committed: smooth ones, then jumps.
 static bool check_round_trip(void)
 {
-    const float high = hyst_f32_reset(&MODEL, &state, HYST_START_POSITIVE_SATURATION, MODEL.input_max);
-    const float low = hyst_f32_reset(&MODEL, &state, HYST_START_NEGATIVE_SATURATION, MODEL.input_min);
+    const float high =
+        hyst_f32_reset(&TESTED_MODEL, &state, HYST_START_POSITIVE_SATURATION, TESTED_MODEL.input_max);
+    const float low =
+        hyst_f32_reset(&TESTED_MODEL, &state, HYST_START_NEGATIVE_SATURATION, TESTED_MODEL.input_min);
     const float bound = round_trip_bound();
     float worst = 0.0f;
     uint32_t seed = 1;
@@ -120,9 +122,9 @@ static bool check_round_trip(void)
     for (uint32_t i = 0; i < NUM_INVERSE; ++i) {
         const float part = i < NUM_INVERSE / 2 ? signal_smooth(i, 7) : signal_random(&seed);
         const float wanted = within(low, high, part);
-        const hyst_f32_inverse_t found = hyst_f32_inverse(&MODEL, &state, wanted);
+        const hyst_f32_inverse_t found = hyst_f32_inverse(&TESTED_MODEL, &state, wanted);
         num_clamped += found.clamped ? 1u : 0u;
-        worst = larger(worst, magnitude(hyst_f32_step(&MODEL, &state, found.input) - wanted));
+        worst = larger(worst, magnitude(hyst_f32_step(&TESTED_MODEL, &state, found.input) - wanted));
     }
     const bool passed = report("round trip: ", worst <= bound && num_clamped == 0);
     port_print(", largest error ");
@@ -138,17 +140,17 @@ static void print_checksum(void)
 {
     uint32_t sum = CHECKSUM_START;
     uint32_t seed = 2;
-    (void)hyst_f32_reset(&MODEL, &state, HYST_START_DEMAGNETISED, MODEL.input_min);
+    (void)hyst_f32_reset(&TESTED_MODEL, &state, HYST_START_DEMAGNETISED, TESTED_MODEL.input_min);
     for (uint32_t i = 0; i < NUM_FORWARD; ++i) {
         const float part = i % 1000 < 500 ? signal_smooth(i, 3) : signal_random(&seed);
-        sum = checksum_add(sum, float_bits(hyst_f32_step(&MODEL, &state, input_at(part))));
+        sum = checksum_add(sum, float_bits(hyst_f32_step(&TESTED_MODEL, &state, input_at(part))));
     }
     for (uint32_t i = 0; i < NUM_INVERSE; ++i) {
-        const hyst_f32_inverse_t reach = hyst_f32_inverse(&MODEL, &state, state.output);
+        const hyst_f32_inverse_t reach = hyst_f32_inverse(&TESTED_MODEL, &state, state.output);
         const float wanted = within(reach.reachable_min, reach.reachable_max, signal_random(&seed));
-        const hyst_f32_inverse_t found = hyst_f32_inverse(&MODEL, &state, wanted);
+        const hyst_f32_inverse_t found = hyst_f32_inverse(&TESTED_MODEL, &state, wanted);
         sum = checksum_add(sum, float_bits(found.input));
-        sum = checksum_add(sum, float_bits(hyst_f32_step(&MODEL, &state, found.input)));
+        sum = checksum_add(sum, float_bits(hyst_f32_step(&TESTED_MODEL, &state, found.input)));
     }
     port_print("checksum:   ");
     print_hex(sum);
@@ -166,10 +168,10 @@ static uint32_t count_empty(void)
 
 static uint32_t count_forward(void)
 {
-    (void)hyst_f32_reset(&MODEL, &state, HYST_START_NEGATIVE_SATURATION, timed_input[0]);
+    (void)hyst_f32_reset(&TESTED_MODEL, &state, HYST_START_NEGATIVE_SATURATION, timed_input[0]);
     port_count_start();
     for (uint32_t i = 0; i < NUM_TIMED; ++i) {
-        sink = hyst_f32_step(&MODEL, &state, timed_input[i]);
+        sink = hyst_f32_step(&TESTED_MODEL, &state, timed_input[i]);
     }
     return port_count_instructions();
 }
@@ -177,12 +179,12 @@ static uint32_t count_forward(void)
 /// Inverse and commit; leaves the inputs that were applied in timed_input.
 static uint32_t count_inverse_and_forward(void)
 {
-    (void)hyst_f32_reset(&MODEL, &state, HYST_START_NEGATIVE_SATURATION, timed_input[0]);
+    (void)hyst_f32_reset(&TESTED_MODEL, &state, HYST_START_NEGATIVE_SATURATION, timed_input[0]);
     port_count_start();
     for (uint32_t i = 0; i < NUM_TIMED; ++i) {
-        const hyst_f32_inverse_t found = hyst_f32_inverse(&MODEL, &state, timed_wanted[i]);
+        const hyst_f32_inverse_t found = hyst_f32_inverse(&TESTED_MODEL, &state, timed_wanted[i]);
         timed_input[i] = found.input;
-        sink = hyst_f32_step(&MODEL, &state, found.input);
+        sink = hyst_f32_step(&TESTED_MODEL, &state, found.input);
     }
     return port_count_instructions();
 }
@@ -191,9 +193,9 @@ static void print_counts(const char* what)
 {
     const uint32_t empty = count_empty();
     const uint32_t forward = count_forward() - empty;
-    (void)hyst_f32_reset(&MODEL, &state, HYST_START_NEGATIVE_SATURATION, timed_input[0]);
+    (void)hyst_f32_reset(&TESTED_MODEL, &state, HYST_START_NEGATIVE_SATURATION, timed_input[0]);
     for (uint32_t i = 0; i < NUM_TIMED; ++i) {
-        timed_wanted[i] = hyst_f32_step(&MODEL, &state, timed_input[i]);
+        timed_wanted[i] = hyst_f32_step(&TESTED_MODEL, &state, timed_input[i]);
     }
     const uint32_t both = count_inverse_and_forward();
     const uint32_t same_forward = count_forward();
