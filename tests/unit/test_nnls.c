@@ -62,9 +62,9 @@ static outcome_t solve(problem_t* p)
 
 static long double residual_at(const problem_t* p, size_t i)
 {
-    long double sum = -p->b[i];
+    long double sum = -(long double)p->b[i];
     for (size_t j = 0; j < p->columns; j++) {
-        sum += (long double)p->a[j * p->rows + i] * p->x[j];
+        sum += (long double)p->a[j * p->rows + i] * (long double)p->x[j];
     }
     return sum;
 }
@@ -82,8 +82,8 @@ static void check_optimal(const problem_t* p)
         long double gradient = 0;
         long double size = 0;
         for (size_t i = 0; i < p->rows; i++) {
-            gradient += p->a[j * p->rows + i] * residual_at(p, i);
-            size += fabs(p->a[j * p->rows + i] * p->x[j]);
+            gradient += (long double)p->a[j * p->rows + i] * residual_at(p, i);
+            size += (long double)fabs(p->a[j * p->rows + i] * p->x[j]);
         }
         TEST_ASSERT_TRUE(isfinite(p->x[j]) && p->x[j] >= 0);
         TEST_ASSERT_EQUAL(p->x[j] > 0, p->passive[j]);
