@@ -1,0 +1,19 @@
+/// Compression for the least mean-square output error over an ensemble of reversal inputs.
+#ifndef HYST_HOST_ENSEMBLE_H
+#define HYST_HOST_ENSEMBLE_H
+
+#include "ensemble_polish.h"
+#include "group_loss.h"
+
+/// How many plays may be kept (`num_plays` below).
+enum { ENSEMBLE_MOST_PLAYS = 64 };
+
+/// The plays, at most num_plays (1 ... ENSEMBLE_MOST_PLAYS), that stand for `plays` (>= 1, radii from the
+/// least to the largest that moves) under the model's envelopes over drive_new's ensemble. Radii stay between
+/// the first and the last of `plays`; weights are >= 0, their total is free. Starts from several partitions,
+/// exchanges radii for others on a grid while that helps, then moves the best ones off the grid. The same
+/// model gives the same answer. OUTCOME_NUMERICAL (not reported) when it has no finite one.
+outcome_t ensemble_find(const model_t* model, const play_set_t* plays, size_t num_plays,
+                        ensemble_plays_t* found);
+
+#endif
