@@ -141,7 +141,8 @@ model_t compress_model(const model_t* model, const compress_options_t* options, 
     model_t merged = merge(model, counted, &compression->partition);
     const play_set_t before = {model->radius, model->weight, num_moving};
     const play_set_t after = {merged.radius, merged.weight, compression->partition.num_groups};
-    compression->error_bound = transport_bound(&before, &after);
+    compression->error_bound =
+        transport_bound(transport_between(&before, &after, model_largest_moving_radius(model)), 0.0);
     record(model, compression, options->cost, options->unscaled, &merged);
     free(counted);
     return merged;
