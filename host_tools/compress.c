@@ -52,18 +52,21 @@ static double* counted_weights(const model_t* model, size_t num_moving, bool uns
     return counted;
 }
 
-static void merge_group(const model_t* model, const double* counted, size_t first, size_t end,
+/// The group's total counted weight, turned back into a weight at the centroid: scaled by Eq. (19) the group
+/// travels as far between the saturations as its plays did, unscaled it keeps their weight.
+static void merge_group(const model_t* model, const double* counted, bool unscaled, size_t first, size_t end,
                         model_t* merged, size_t k)
 {
     group_sums_t sums = group_sums_begin(model->radius[first]);
-    long double weight = 0.0L;
+    long double total = 0.0L;
     for (size_t j = first; j < end; ++j) {
         group_sums_add(&sums, model->radius[j], counted[j]);
-        weight += (long double)model->weight[j];
+        total += (long double)counted[j];
     }
-    merged->weight[k] = (double)weight;
     // Rounding must not carry the centroid out of the group: the radii would no longer be in order.
     merged->radius[k] = fmin(fmax(group_centroid(&sums), model->radius[first]), model->radius[end - 1]);
+    const double travel = unscaled ? 1.0 : model_largest_moving_radius(model) - merged->radius[k];
+    merged->weight[k] = (double)total / travel;
 }
 
 /// sum p_j (descending(input_min) + r_j): what the plays put on the output in negative saturation.
@@ -92,14 +95,14 @@ static double initial_at(const model_t* model, double radius)
     return model->initial[j] + part * (model->initial[j + 1] - model->initial[j]);
 }
 
-static model_t merge(const model_t* model, const double* counted, const partition_t* partition)
+static model_t merge(const model_t* model, const double* counted, bool unscaled, const partition_t* partition)
 {
     model_t merged = model_copy(model);
     const size_t num_plays = partition->num_groups > 0 ? partition->num_groups : 1;
     model_set_num_plays(&merged, num_plays);
     merged.radius[0] = model->radius[0];
     for (size_t k = 0; k < partition->num_groups; ++k) {
-        merge_group(model, counted, partition->beta[k], partition->beta[k + 1], &merged, k);
+        merge_group(model, counted, unscaled, partition->beta[k], partition->beta[k + 1], &merged, k);
     }
     if (model->initial != NULL) {
         merged.initial = xcalloc(num_plays, sizeof(double));
@@ -138,7 +141,7 @@ model_t compress_model(const model_t* model, const compress_options_t* options, 
     } else {
         compression->partition.beta = xcalloc(1, sizeof(size_t));
     }
-    model_t merged = merge(model, counted, &compression->partition);
+    model_t merged = merge(model, counted, options->unscaled, &compression->partition);
     const play_set_t before = {model->radius, model->weight, num_moving};
     const play_set_t after = {merged.radius, merged.weight, compression->partition.num_groups};
     compression->error_bound =

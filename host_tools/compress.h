@@ -17,11 +17,12 @@ typedef struct {
     double error_bound;    ///< |output difference| for every input from negative saturation, see transport.h
 } compression_t;
 
-/// The compressed model. A group's play has the group's total weight and, as radius, the centroid under the
-/// weights of Eq. (19). Plays that cannot move (r >= model_largest_moving_radius) go into the constant of the
-/// non-hysteretic part, which also keeps the output in negative saturation as it was. `initial` is
-/// interpolated in the radius. What was done is recorded in identification.compression; its error_bound adds
-/// up over repeated compressions. Where no play can move, one without weight remains.
+/// The compressed model. A group's play has, as radius, the centroid under the weights of Eq. (19), and the
+/// weight with which it travels as far between the saturations as the group's plays did; unscaled, the plain
+/// centroid and the group's total weight. Plays that cannot move (r >= model_largest_moving_radius) go into
+/// the constant of the non-hysteretic part, which also keeps the output in negative saturation as it was.
+/// `initial` is interpolated in the radius. What was done is recorded in identification.compression; its
+/// error_bound adds up over repeated compressions. Where no play can move, one without weight remains.
 model_t compress_model(const model_t* model, const compress_options_t* options, compression_t* compression);
 
 /// Likewise with the least number of plays whose error_bound is at most `tolerance` >= 0 [output units];
