@@ -29,11 +29,12 @@ static void take_together(const play_set_t* plays, size_t num_nodes, double* rad
 {
     for (size_t node = 0, j = 0; node < num_nodes; ++node) {
         group_sums_t sums = group_sums_begin(plays->radius[j]);
+        weight[node] = 0.0;
         for (; j * num_nodes / plays->num_plays == node && j < plays->num_plays; ++j) {
             group_sums_add(&sums, plays->radius[j], plays->weight[j]);
+            weight[node] += plays->weight[j];
         }
         radius[node] = group_centroid(&sums);
-        weight[node] = (double)sums.weight;
     }
 }
 

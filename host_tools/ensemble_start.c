@@ -10,13 +10,13 @@ typedef struct {
     double* cumulative; ///< [(num_plays + 1)^2] E[S_i S_j]
     double* with_state; ///< [(num_plays + 1) * num_radii] E[S_j w(candidate)]
     double* weight;     ///< [num_plays + 1] total weight of the first j plays
-} moments_t;
+} cumulated_t;
 
-static moments_t moments_new(const gram_t* gram, const play_set_t* plays)
+static cumulated_t cumulated_new(const gram_t* gram, const play_set_t* plays)
 {
     const size_t n = plays->num_plays;
     const size_t g = gram->num_radii;
-    moments_t m = {.gram = gram, .num_plays = n};
+    cumulated_t m = {.gram = gram, .num_plays = n};
     m.cumulative = xcalloc((n + 1) * (n + 1), sizeof(double));
     m.with_state = xcalloc((n + 1) * g, sizeof(double));
     m.weight = xcalloc(n + 1, sizeof(double));
@@ -37,16 +37,16 @@ static moments_t moments_new(const gram_t* gram, const play_set_t* plays)
     return m;
 }
 
-static void moments_free(moments_t* m)
+static void cumulated_free(cumulated_t* m)
 {
     free(m->cumulative);
     free(m->with_state);
     free(m->weight);
-    *m = (moments_t){0};
+    *m = (cumulated_t){0};
 }
 
 /// The least mean-square error of one play with the weight of the plays first + 1 ... end in their place.
-static double group_error(const moments_t* m, size_t first, size_t end, size_t* candidate)
+static double group_error(const cumulated_t* m, size_t first, size_t end, size_t* candidate)
 {
     const size_t g = m->gram->num_radii;
     const size_t width = m->num_plays + 1;
@@ -67,7 +67,7 @@ static double group_error(const moments_t* m, size_t first, size_t end, size_t* 
 /// Bellman's recursion: least[k * width + end] over the first `end` plays in k groups.
 void start_least_squares(const gram_t* gram, const play_set_t* plays, size_t num_groups, size_t* chosen)
 {
-    moments_t m = moments_new(gram, plays);
+    cumulated_t m = cumulated_new(gram, plays);
     const size_t width = plays->num_plays + 1;
     double* least = xcalloc((num_groups + 1) * width, sizeof(double));
     size_t* before = xcalloc((num_groups + 1) * width, sizeof(size_t));
@@ -94,5 +94,5 @@ void start_least_squares(const gram_t* gram, const play_set_t* plays, size_t num
     }
     free(before);
     free(least);
-    moments_free(&m);
+    cumulated_free(&m);
 }
