@@ -214,6 +214,44 @@ static ensemble_plays_t copy_of(const play_set_t* plays)
     return copy;
 }
 
+static double largest_weight(const play_set_t* plays)
+{
+    double largest = 0.0;
+    for (size_t j = 0; j < plays->num_plays; ++j) {
+        largest = fmax(largest, plays->weight[j]);
+    }
+    return largest > 0.0 ? largest : 1.0;
+}
+
+static void scale_plays(ensemble_plays_t* plays, double radius_factor, double weight_factor)
+{
+    for (size_t k = 0; k < plays->num_plays; ++k) {
+        plays->radius[k] *= radius_factor;
+        plays->weight[k] *= weight_factor;
+    }
+}
+
+/// For scaled plays and the ensemble they are scaled for.
+static outcome_t find_scaled(const drive_t* drive, const play_set_t* plays, ensemble_plays_t* found)
+{
+    double radius[MOST_NODES];
+    double weight[MOST_NODES];
+    const size_t num_nodes = plays->num_plays < MOST_NODES ? plays->num_plays : MOST_NODES;
+    take_together(plays, num_nodes, radius, weight);
+    const play_set_t nodes = {radius, weight, num_nodes};
+    double* output = play_output(drive, plays);
+    const double mean = centre(output, drive->num_samples);
+    gram_t gram = gram_new(drive, &nodes, output);
+    search_t search = {&gram, found->num_plays, 0};
+    choice_t best[NUM_POLISHED];
+    const size_t num_best = search_grid(&search, &nodes, best);
+    found->evaluations = search.evaluations;
+    const outcome_t outcome = polish_best(drive, output, mean, &gram, best, num_best, found);
+    gram_free(&gram);
+    free(output);
+    return outcome;
+}
+
 outcome_t ensemble_find(const model_t* model, const play_set_t* plays, size_t num_plays,
                         ensemble_plays_t* found)
 {
@@ -222,23 +260,26 @@ outcome_t ensemble_find(const model_t* model, const play_set_t* plays, size_t nu
         return OUTCOME_OK;
     }
     openblas_set_num_threads(1); // the same sums in the same order each run
-    double radius[MOST_NODES];
-    double weight[MOST_NODES];
-    const size_t num_nodes = plays->num_plays < MOST_NODES ? plays->num_plays : MOST_NODES;
-    take_together(plays, num_nodes, radius, weight);
-    const play_set_t nodes = {radius, weight, num_nodes};
+    const double weight_unit = largest_weight(plays);
     drive_t drive = drive_new(model);
-    double* output = play_output(&drive, plays);
-    const double mean = centre(output, drive.num_samples);
-    gram_t gram = gram_new(&drive, &nodes, output);
-    search_t search = {&gram, num_plays, 0};
-    choice_t best[NUM_POLISHED];
-    const size_t num_best = search_grid(&search, &nodes, best);
+    ensemble_plays_t all = copy_of(plays);
+    scale_plays(&all, 1.0 / drive.unit, 1.0 / weight_unit);
+    const play_set_t scaled = {all.radius, all.weight, all.num_plays};
     *found = ensemble_plays_new(num_plays);
-    found->evaluations = search.evaluations;
-    const outcome_t outcome = polish_best(&drive, output, mean, &gram, best, num_best, found);
-    gram_free(&gram);
-    free(output);
+    const outcome_t outcome = find_scaled(&drive, &scaled, found);
+    // A state is level + unit times the scaled one, which counts only as far as the weights' totals differ.
+    found->constant *= drive.unit * weight_unit;
+    found->rms *= drive.unit * weight_unit;
+    scale_plays(found, drive.unit, weight_unit);
+    for (size_t k = 0; k < num_plays; ++k) {
+        found->radius[k] =
+            fmin(fmax(found->radius[k], plays->radius[0]), plays->radius[plays->num_plays - 1]);
+        found->constant -= drive.level * found->weight[k];
+    }
+    for (size_t j = 0; j < plays->num_plays; ++j) {
+        found->constant += drive.level * plays->weight[j];
+    }
+    ensemble_plays_free(&all);
     drive_free(&drive);
     return outcome;
 }

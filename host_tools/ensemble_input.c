@@ -28,8 +28,8 @@ static void append(generator_t* generator, double input)
     }
     const model_t* model = generator->model;
     const double v = model->input_min + input * (model->input_max - model->input_min);
-    drive->ascending[drive->num_samples] = curve_value(&model->ascending, v);
-    drive->descending[drive->num_samples] = curve_value(&model->descending, v);
+    drive->ascending[drive->num_samples] = (curve_value(&model->ascending, v) - drive->level) / drive->unit;
+    drive->descending[drive->num_samples] = (curve_value(&model->descending, v) - drive->level) / drive->unit;
     drive->num_samples += 1;
     generator->input = input;
 }
@@ -81,6 +81,8 @@ static void nested_loops(generator_t* generator)
 drive_t drive_new(const model_t* model)
 {
     generator_t generator = {.model = model, .state = {0x330E, 1, 0}};
+    generator.drive.level = curve_value(&model->descending, model->input_min);
+    generator.drive.unit = model_largest_moving_radius(model);
     for (int i = 0; i < NUM_INPUTS; ++i) {
         append(&generator, 0.0);
         if (i % 4 == 0) {

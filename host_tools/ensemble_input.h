@@ -5,10 +5,12 @@
 #include "model.h"
 
 /// The inputs one after the other, as the plays see them. Each begins with a fall to input_min, which is
-/// negative saturation whatever was before.
+/// negative saturation whatever was before. Envelope values v are scaled to (v - level) / unit, so that
+/// states are between 0 and 2 and radii, divided by the unit, below 1, whatever the model's magnitudes.
 typedef struct {
+    double level, unit; ///< descending(input_min) and the largest moving radius
     size_t num_samples;
-    double* ascending;  ///< [num_samples] ascending envelope at the input, owned
+    double* ascending;  ///< [num_samples] ascending envelope at the input, scaled, owned
     double* descending; ///< [num_samples] descending envelope
 } drive_t;
 
@@ -16,12 +18,13 @@ typedef struct {
 /// way count alike. Of four inputs two have reversal points uniform over the range; one alternates about
 /// uniform centres with amplitudes whose square root is uniform, so that small loops occur at all levels; one
 /// consists of nested loops, each 0.5 ... 0.95 times as wide as the one before, begun anew when below 1/50.
+/// The model has a play that moves.
 drive_t drive_new(const model_t* model);
 void drive_free(drive_t* drive);
 
-/// The states of the play with this radius: state[num_samples]. slope[num_samples], unless NULL, gets their
-/// derivatives in the radius: -1 where the ascending envelope moved the play last, 1 where the descending
-/// did.
+/// The states of the play with this scaled radius: state[num_samples]. slope[num_samples], unless NULL, gets
+/// their derivatives in the radius: -1 where the ascending envelope moved the play last, 1 where the
+/// descending did.
 void drive_states(const drive_t* drive, double radius, double* state, double* slope);
 
 #endif
