@@ -87,8 +87,10 @@ static void factor_free(factor_t* factor)
 /// U^-T times the column.
 static void divide(const factor_t* factor, double* column)
 {
-    cblas_dtrsv(CblasColMajor, CblasUpper, CblasTrans, CblasNonUnit, (int)factor->count, factor->upper,
-                (int)factor->count, column, 1);
+    if (factor->count > 0) {
+        cblas_dtrsv(CblasColMajor, CblasUpper, CblasTrans, CblasNonUnit, (int)factor->count, factor->upper,
+                    (int)factor->count, column, 1);
+    }
 }
 
 /// Of the chosen candidates without the one at `left_out` (count: of all). A candidate that depends on those
@@ -114,9 +116,7 @@ static factor_t factor_new(const gram_t* gram, const size_t* chosen, size_t coun
         u[column] = pivot > dependent * variance ? sqrt(pivot) : (double)INFINITY;
         factor.target[column] = gram->target[c];
     }
-    if (n > 0) {
-        divide(&factor, factor.target);
-    }
+    divide(&factor, factor.target);
     return factor;
 }
 

@@ -18,6 +18,17 @@ static double uniform(generator_t* generator, double low, double high)
     return low + (high - low) * erand48(generator->state);
 }
 
+static drive_t empty_drive(const model_t* model)
+{
+    return (drive_t){.level = curve_value(&model->descending, model->input_min),
+                     .unit = model_largest_moving_radius(model)};
+}
+
+static double scaled(const drive_t* drive, const curve_t* envelope, double v)
+{
+    return (curve_value(envelope, v) - drive->level) / drive->unit;
+}
+
 static void append(generator_t* generator, double input)
 {
     drive_t* drive = &generator->drive;
@@ -28,8 +39,8 @@ static void append(generator_t* generator, double input)
     }
     const model_t* model = generator->model;
     const double v = model->input_min + input * (model->input_max - model->input_min);
-    drive->ascending[drive->num_samples] = (curve_value(&model->ascending, v) - drive->level) / drive->unit;
-    drive->descending[drive->num_samples] = (curve_value(&model->descending, v) - drive->level) / drive->unit;
+    drive->ascending[drive->num_samples] = scaled(drive, &model->ascending, v);
+    drive->descending[drive->num_samples] = scaled(drive, &model->descending, v);
     drive->num_samples += 1;
     generator->input = input;
 }
@@ -80,9 +91,7 @@ static void nested_loops(generator_t* generator)
 
 drive_t drive_new(const model_t* model)
 {
-    generator_t generator = {.model = model, .state = {0x330E, 1, 0}};
-    generator.drive.level = curve_value(&model->descending, model->input_min);
-    generator.drive.unit = model_largest_moving_radius(model);
+    generator_t generator = {.model = model, .state = {0x330E, 1, 0}, .drive = empty_drive(model)};
     for (int i = 0; i < NUM_INPUTS; ++i) {
         append(&generator, 0.0);
         if (i % 4 == 0) {
@@ -96,6 +105,19 @@ drive_t drive_new(const model_t* model)
     return generator.drive;
 }
 
+drive_t drive_of(const model_t* model, const double* input, size_t num_samples)
+{
+    drive_t drive = empty_drive(model);
+    drive.num_samples = num_samples;
+    drive.ascending = xcalloc(num_samples, sizeof(double));
+    drive.descending = xcalloc(num_samples, sizeof(double));
+    for (size_t t = 0; t < num_samples; ++t) {
+        drive.ascending[t] = scaled(&drive, &model->ascending, input[t]);
+        drive.descending[t] = scaled(&drive, &model->descending, input[t]);
+    }
+    return drive;
+}
+
 void drive_free(drive_t* drive)
 {
     free(drive->ascending);
@@ -105,7 +127,7 @@ void drive_free(drive_t* drive)
 
 void drive_states(const drive_t* drive, double radius, double* state, double* slope)
 {
-    double w = drive->descending[0] + radius;
+    double w = radius;
     double derivative = 1.0;
     for (size_t t = 0; t < drive->num_samples; ++t) {
         // A rising input leaves w below descending + radius anyway, a falling one above ascending - radius.

@@ -20,6 +20,8 @@ typedef struct {
 /// consists of nested loops, each 0.5 ... 0.95 times as wide as the one before, begun anew when below 1/50.
 /// The model has a play that moves.
 drive_t drive_new(const model_t* model);
+/// One given input, from negative saturation; its reversals may lie anywhere in the range.
+drive_t drive_of(const model_t* model, const double* input, size_t num_samples);
 void drive_free(drive_t* drive);
 
 /// The states of the play with this scaled radius: state[num_samples]. slope[num_samples], unless NULL, gets
