@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char compress_cost_names[] = "entropy-sum, entropy-max, uniform";
+const char compress_cost_names[] = "entropy-sum, entropy-max, wasserstein, variance, uniform";
 
 const char* compress_cost_name(partition_cost_t cost)
 {
@@ -13,6 +13,10 @@ const char* compress_cost_name(partition_cost_t cost)
         return "entropy-sum";
     case COST_ENTROPY_MAX:
         return "entropy-max";
+    case COST_WASSERSTEIN:
+        return "wasserstein";
+    case COST_VARIANCE:
+        return "variance";
     case COST_UNIFORM:
         break;
     }
@@ -21,7 +25,7 @@ const char* compress_cost_name(partition_cost_t cost)
 
 bool compress_cost_from_name(const char* name, partition_cost_t* cost)
 {
-    for (partition_cost_t known = COST_ENTROPY_SUM; known <= COST_UNIFORM; ++known) {
+    for (partition_cost_t known = COST_ENTROPY_SUM; known <= COST_VARIANCE; ++known) {
         if (strcmp(name, compress_cost_name(known)) == 0) {
             *cost = known;
             return true;
