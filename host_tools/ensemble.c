@@ -267,17 +267,12 @@ outcome_t ensemble_find(const model_t* model, const play_set_t* plays, size_t nu
     const play_set_t scaled = {all.radius, all.weight, all.num_plays};
     *found = ensemble_plays_new(num_plays);
     const outcome_t outcome = find_scaled(&drive, &scaled, found);
-    // A state is level + unit times the scaled one, which counts only as far as the weights' totals differ.
     found->constant *= drive.unit * weight_unit;
     found->rms *= drive.unit * weight_unit;
     scale_plays(found, drive.unit, weight_unit);
     for (size_t k = 0; k < num_plays; ++k) {
         found->radius[k] =
             fmin(fmax(found->radius[k], plays->radius[0]), plays->radius[plays->num_plays - 1]);
-        found->constant -= drive.level * found->weight[k];
-    }
-    for (size_t j = 0; j < plays->num_plays; ++j) {
-        found->constant += drive.level * plays->weight[j];
     }
     ensemble_plays_free(&all);
     drive_free(&drive);

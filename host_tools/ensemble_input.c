@@ -128,17 +128,17 @@ void drive_free(drive_t* drive)
 void drive_states(const drive_t* drive, double radius, double* state, double* slope)
 {
     double w = radius;
-    double derivative = 1.0;
+    double derivative = 0.0;
     for (size_t t = 0; t < drive->num_samples; ++t) {
         // A rising input leaves w below descending + radius anyway, a falling one above ascending - radius.
         if (drive->ascending[t] - radius > w) {
             w = drive->ascending[t] - radius;
-            derivative = -1.0;
+            derivative = -2.0;
         } else if (drive->descending[t] + radius < w) {
             w = drive->descending[t] + radius;
-            derivative = 1.0;
+            derivative = 0.0;
         }
-        state[t] = w;
+        state[t] = w - radius;
         if (slope != NULL) {
             slope[t] = derivative;
         }

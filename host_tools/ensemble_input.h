@@ -6,7 +6,7 @@
 
 /// The inputs one after the other, as the plays see them. Each begins with a fall to input_min, which is
 /// negative saturation whatever was before. Envelope values v are scaled to (v - level) / unit, so that
-/// states are between 0 and 2 and radii, divided by the unit, below 1, whatever the model's magnitudes.
+/// radii, divided by the unit, are below 1, whatever the model's magnitudes.
 typedef struct {
     double level, unit; ///< descending(input_min) and the largest moving radius
     size_t num_samples;
@@ -24,9 +24,9 @@ drive_t drive_new(const model_t* model);
 drive_t drive_of(const model_t* model, const double* input, size_t num_samples);
 void drive_free(drive_t* drive);
 
-/// The states of the play with this scaled radius: state[num_samples]. slope[num_samples], unless NULL, gets
-/// their derivatives in the radius: -1 where the ascending envelope moved the play last, 1 where the
-/// descending did.
+/// The scaled states of the play with this scaled radius, counted from negative saturation:
+/// state[num_samples], 0 ... 2. slope[num_samples], unless NULL, gets their derivatives in the radius: -2
+/// where the ascending envelope moved the play last, 0 where the descending did.
 void drive_states(const drive_t* drive, double radius, double* state, double* slope);
 
 #endif

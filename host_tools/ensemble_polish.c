@@ -199,7 +199,8 @@ outcome_t ensemble_polish(const drive_t* drive, const double* output, double mea
         plays->radius[k] = fmin(fmax(plays->radius[k], low), high);
     }
     fit_weights(&polish, plays->radius, residual);
-    plays->constant = mean - cblas_ddot((int)plays->num_plays, plays->weight, 1, polish.mean, 1);
+    // States count from negative saturation, so that nothing else is left of the output there.
+    plays->constant = cblas_ddot((int)plays->num_plays, plays->weight, 1, polish.mean, 1) - mean;
     plays->rms = cblas_dnrm2((int)samples, residual, 1) / sqrt((double)samples);
     sort(plays);
     const outcome_t outcome = polish.outcome;

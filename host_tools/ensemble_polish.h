@@ -10,7 +10,7 @@ typedef struct {
     size_t num_plays;
     double* radius;     ///< [num_plays] not decreasing, owned
     double* weight;     ///< [num_plays] >= 0
-    double constant;    ///< to be added to the output
+    double constant;    ///< y - y^ in negative saturation
     double rms;         ///< the output error that is left over the ensemble
     size_t evaluations; ///< sets of radii tried
 } ensemble_plays_t;
