@@ -1,6 +1,5 @@
 #include "ensemble.h"
 #include "ensemble_start.h"
-#include "partition.h"
 #include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
@@ -255,9 +254,9 @@ static outcome_t find_scaled(const drive_t* drive, const play_set_t* plays, ense
 outcome_t ensemble_find(const model_t* model, const play_set_t* plays, size_t num_plays,
                         ensemble_plays_t* found)
 {
-    if (num_plays >= plays->num_plays) {
+    if (num_plays >= plays->num_plays || num_plays > ENSEMBLE_MOST_PLAYS) {
         *found = copy_of(plays);
-        return OUTCOME_OK;
+        return num_plays >= plays->num_plays ? OUTCOME_OK : OUTCOME_USAGE;
     }
     openblas_set_num_threads(1); // the same sums in the same order each run
     const double weight_unit = largest_weight(plays);
@@ -274,7 +273,29 @@ outcome_t ensemble_find(const model_t* model, const play_set_t* plays, size_t nu
         found->radius[k] =
             fmin(fmax(found->radius[k], plays->radius[0]), plays->radius[plays->num_plays - 1]);
     }
+    if (outcome != OUTCOME_OK) {
+        ensemble_plays_free(found);
+        *found = copy_of(plays);
+    }
     ensemble_plays_free(&all);
     drive_free(&drive);
     return outcome;
+}
+
+partition_t ensemble_partition(const play_set_t* plays, const ensemble_plays_t* found)
+{
+    partition_t partition = {.num_groups = found->num_plays,
+                             .beta = xcalloc(found->num_plays + 1, sizeof(size_t)),
+                             .cost = found->rms,
+                             .evaluations = found->evaluations};
+    size_t j = 0;
+    for (size_t k = 0; k + 1 < found->num_plays; ++k) {
+        while (j < plays->num_plays &&
+               plays->radius[j] - found->radius[k] <= found->radius[k + 1] - plays->radius[j]) {
+            ++j;
+        }
+        partition.beta[k + 1] = j;
+    }
+    partition.beta[found->num_plays] = plays->num_plays;
+    return partition;
 }
