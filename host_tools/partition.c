@@ -27,6 +27,7 @@ double group_cost(const play_set_t* plays, size_t first, size_t end, partition_c
     case COST_ENTROPY_SUM:
     case COST_ENTROPY_MAX:
     case COST_UNIFORM:
+    case COST_ENSEMBLE:
         break;
     }
     return entropy_loss(plays, first, end);
@@ -126,18 +127,22 @@ static division_t divide(const scaled_t* scaled, size_t least_groups, size_t mos
     division_t division = {.num_plays = num_plays, .most_groups = most_groups};
     division.before = xcalloc((most_groups + 1) * (num_plays + 1), sizeof(uint32_t));
     division.last_end = xcalloc(most_groups + 1, sizeof(size_t));
+    const partition_terms_t own = scaled_terms(scaled, terms);
+    if (terms->exhaustive) {
+        divide_exhaustively(&scaled->plays, &own, &division);
+        return division;
+    }
     switch (terms->cost) {
     case COST_ENTROPY_SUM:
     case COST_ENTROPY_MAX:
         divide_by_entropy(&scaled->plays, least_groups, terms->cost == COST_ENTROPY_MAX, &division);
         break;
     case COST_WASSERSTEIN:
-    case COST_VARIANCE: {
-        const partition_terms_t own = scaled_terms(scaled, terms);
+    case COST_VARIANCE:
         divide_by_distance(&scaled->plays, &own, &division);
         break;
-    }
     case COST_UNIFORM:
+    case COST_ENSEMBLE:
         break;
     }
     return division;

@@ -11,6 +11,7 @@ typedef enum {
     COST_UNIFORM,     ///< groups of equal numbers of plays; its cost is the sum of the losses
     COST_WASSERSTEIN, ///< sum of p |r - median|: weighted k-median
     COST_VARIANCE,    ///< sum of p (r - centroid)^2: weighted k-means
+    COST_ENSEMBLE,    ///< mean-square output error: no partition's cost, see ensemble.h
 } partition_cost_t;
 
 /// What is minimised. Cost wasserstein has, besides the groups, two places that take up weight without a
@@ -20,7 +21,9 @@ typedef struct {
     partition_cost_t cost;
     bool zero_is_free; ///< the plays before beta[0] move to r = 0
     bool limit_is_free;
-    double limit; ///< where the plays after beta[num_groups] move to; not below the largest radius
+    double limit;    ///< where the plays after beta[num_groups] move to; not below the largest radius
+    bool exhaustive; ///< try every partition; entropy, wasserstein and variance, one number of groups at a
+                     ///< time
 } partition_terms_t;
 
 typedef struct {
@@ -40,6 +43,8 @@ partition_t partition_find(const play_set_t* plays, size_t num_groups, partition
 /// Likewise for least_groups ... most_groups groups in one go: [most_groups - least_groups + 1], owned.
 partition_t* partition_find_all(const play_set_t* plays, size_t least_groups, size_t most_groups,
                                 const partition_terms_t* terms);
+/// How many partitions `exhaustive` goes through; as a double, for it soon exceeds integers.
+double partition_count(size_t num_plays, size_t num_groups, const partition_terms_t* terms);
 /// The least number of groups with which cost wasserstein is at most `cost` >= 0; num_plays if there is none.
 size_t partition_least_groups(const play_set_t* plays, const partition_terms_t* terms, double cost);
 

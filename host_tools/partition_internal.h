@@ -19,6 +19,9 @@ void divide_by_entropy(const play_set_t* plays, size_t least_groups, bool maximu
 /// Costs wasserstein and variance, for 1 ... most_groups groups.
 void divide_by_distance(const play_set_t* plays, const partition_terms_t* terms, division_t* division);
 
+/// All partitions into division->most_groups groups, one by one.
+void divide_exhaustively(const play_set_t* plays, const partition_terms_t* terms, division_t* division);
+
 /// The cost of one group by direct summation.
 double group_cost(const play_set_t* plays, size_t first, size_t end, partition_cost_t cost);
 /// The sum of the groups' costs, or the larger of them for entropy-max.
