@@ -278,7 +278,7 @@ static partition_t find_within(const task_t* task, double tolerance)
         return no_groups();
     }
     size_t least = least_groups(task, tolerance);
-    for (size_t span = 8;; span *= 2) {
+    for (size_t span = 8 + least / 4;; span *= 2) {
         const size_t most = least + span - 1 < num_moving ? least + span - 1 : num_moving;
         partition_t* partitions = partition_find_all(&counted, least, most, &task->terms);
         bool met;
