@@ -299,12 +299,11 @@ outcome_t cmd_compress(int argc, const char** argv)
          "do not count a play by how far it can move, Eq. (19)", NULL},
         {"json", 0, POPT_ARG_NONE, &options.json, 0, "print the result as JSON (needs -o FILE)", NULL},
         POPT_TABLEEND};
-    const command_t command = {
-        "compress", "MODEL", 1,
-        "Merges neighbouring plays until M are left, at the least cost of any "
-        "partition. The error bound holds\n"
-        "for every input within the range, from any start; --json tells what of it the "
-        "worst input attained."};
+    const command_t command = {"compress", "MODEL", 1,
+                               "Merges neighbouring plays until M are left, at the least cost of any "
+                               "partition. The error bound holds\n"
+                               "for every input within the range from negative saturation; --worst-input "
+                               "gives the input that attains it."};
     const char* arguments[1] = {NULL};
     bool finished;
     request_t request = {0};

@@ -18,7 +18,7 @@ typedef struct {
     size_t num_fixed;       ///< plays that cannot move, now part of the constant
     double envelope_weight; ///< weight that became part of the non-hysteretic part (wasserstein)
     double constant;    ///< output before less output after in negative saturation (wasserstein, ensemble)
-    double error_bound; ///< |output difference| for every input from any start, see transport.h
+    double error_bound; ///< |output difference| for every input, see transport.h
     outcome_t outcome;  ///< of ensemble_find; not OUTCOME_OK: the plays that move are as they were
 } compression_t;
 

@@ -39,6 +39,21 @@ double entropy_of_mixing(double weight, double log_weight, double other, double 
     return (large + small) * log_sum - small * log_ratio;
 }
 
+double lag_of_both(lag_part_t part, lag_part_t other, double apart)
+{
+    const double weight = part.weight + other.weight;
+    const double square = part.square + other.square;
+    if (!(square > 0.0)) {
+        return 0.0;
+    }
+    const double share = part.square / square;
+    const double other_share = other.square / square;
+    // The same difference, from the smaller shares.
+    const double difference =
+        other.weight < part.weight ? other_share - other.weight / weight : part.weight / weight - share;
+    return share * part.lag + other_share * other.lag + difference * apart;
+}
+
 group_sums_t group_sums_begin(double origin)
 {
     return (group_sums_t){.origin = origin};
@@ -52,6 +67,10 @@ static double logarithm(double weight)
 void group_sums_add(group_sums_t* sums, double radius, double weight)
 {
     const double before = sums->plain.weight;
+    const double apart = (radius - sums->plain.centroid) - sums->plain.centroid_rest;
+    const lag_part_t part = {before, sums->square.weight, sums->lag};
+    const lag_part_t play = {weight, weight * weight, 0.0};
+    sums->lag = lag_of_both(part, play, apart);
     sums->num_plays += 1;
     sums->distance += radius - sums->origin;
     sums->entropy += entropy_of_mixing(before, logarithm(before), weight, logarithm(weight));
@@ -70,9 +89,7 @@ double group_loss(const group_sums_t* sums)
     if (!(sums->plain.weight > 0.0)) {
         return 0.0;
     }
-    const double lag = (sums->square.centroid - sums->plain.centroid) +
-                       (sums->square.centroid_rest - sums->plain.centroid_rest);
-    const double inertia = sums->square.inertia + sums->square.weight * lag * lag;
+    const double inertia = sums->square.inertia + sums->square.weight * sums->lag * sums->lag;
     return sums->entropy / sums->plain.weight * sqrt(inertia);
 }
 

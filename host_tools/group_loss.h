@@ -29,6 +29,7 @@ typedef struct {
     double distance;  ///< sum of r - origin, for a group without weight
     moments_t plain;  ///< weighted by p
     moments_t square; ///< weighted by p^2
+    double lag;       ///< centroid under p^2 less centroid under p
     double entropy;   ///< sum of p log(P / p), P the sum of p: P times the entropy of the normalised weights
 } group_sums_t;
 
@@ -44,6 +45,15 @@ double group_loss(const group_sums_t* sums);
 /// P entropy of two parts taken together, less their own: P_1 log(P / P_1) + P_2 log(P / P_2), given the
 /// parts' weights and the logarithms of these (0 for weight 0).
 double entropy_of_mixing(double weight, double log_weight, double other, double log_other);
+
+/// What the lag needs to know of a part.
+typedef struct {
+    double weight, square; ///< sums of p and p^2
+    double lag;
+} lag_part_t;
+/// The lag of two parts taken together whose centroids are `apart`. Where one part outweighs the other by all
+/// digits, the lag keeps its own.
+double lag_of_both(lag_part_t part, lag_part_t other, double apart);
 
 /// The play at the weighted median of the plays first ... end - 1: the first one up to which there is at
 /// least half of the weight.

@@ -14,9 +14,7 @@ static void store_entropy(const group_sums_t* sums, double origin, double* field
     field[ENTROPY * stride] = sums->entropy;
     field[CENTROID * stride] = plain->weight > 0.0 ? (plain->centroid - origin) + plain->centroid_rest : 0.0;
     field[SQUARE * stride] = square->weight;
-    field[LAG * stride] = square->weight > 0.0 ? (square->centroid - plain->centroid) +
-                                                     (square->centroid_rest - plain->centroid_rest)
-                                               : 0.0;
+    field[LAG * stride] = sums->lag;
     field[SQUARE_INERTIA * stride] = square->inertia;
 }
 
@@ -59,16 +57,16 @@ void join_entropy_loss(const interval_joint_t* joint, size_t first, size_t end, 
     const double* restrict square = field_of(joint, SQUARE);
     const double* restrict own_lag = field_of(joint, LAG);
     const double* restrict own_inertia = field_of(joint, SQUARE_INERTIA);
+    const lag_part_t end_part = {weight[last], square[last], own_lag[last]};
     for (size_t i = first; i < end; ++i) {
         const double total = weight[i] + weight[last];
         const double entropy = own_entropy[i] + own_entropy[last] +
                                entropy_of_mixing(weight[i], log_weight[i], weight[last], log_weight[last]);
         const double apart = centroid[last] - centroid[i];
         const double square_apart = apart + (own_lag[last] - own_lag[i]);
-        const double square_share = share_of(square[last], square[i] + square[last]);
-        const double lag = own_lag[i] + square_share * square_apart - share_of(weight[last], total) * apart;
-        const double inertia = own_inertia[i] + own_inertia[last] +
-                               square[i] * square_share * square_apart * square_apart +
+        const double lag = lag_of_both((lag_part_t){weight[i], square[i], own_lag[i]}, end_part, apart);
+        const double reduced = square[i] * share_of(square[last], square[i] + square[last]);
+        const double inertia = own_inertia[i] + own_inertia[last] + reduced * square_apart * square_apart +
                                (square[i] + square[last]) * lag * lag;
         value[i - first] = share_of(entropy, total) * sqrt(inertia);
     }

@@ -23,9 +23,9 @@ bool model_takes_envelope(const model_t* model);
 /// the radius; without plays one of weight 0 remains.
 model_t replace_plays(const model_t* model, const replacement_t* replacement);
 
-/// What the replacement may change, over all inputs within the range from any of the starts (CONTRACT,
-/// --initial): transport_bound with the replacement's constant bounds |y - y^|, but for the rounding of
-/// weights and constant.
+/// What the replacement may change over all inputs within the range, from negative saturation; from any start
+/// (CONTRACT, --initial) where no radius is above the limit. transport_bound with the replacement's constant
+/// bounds |y - y^|, but for the rounding of the constant.
 transport_t replacement_transport(const model_t* model, const replacement_t* replacement);
 
 /// transport_pieces of the same.

@@ -107,7 +107,7 @@ static void error_bound_is_never_exceeded(void)
     for (int trial = 0; trial < 300; ++trial) {
         model_t model = vo2_model(&random, 1 + random_below(&random, 30));
         compress_options_t options = to_plays(1 + random_below(&random, 8));
-        options.cost = (partition_cost_t)random_below(&random, 3);
+        options.cost = (partition_cost_t)random_below(&random, COST_VARIANCE + 1);
         options.unscaled = random_below(&random, 2) == 0;
         compression_t compression;
         model_t small = compress_model(&model, &options, &compression);
