@@ -158,7 +158,8 @@ static void search_around(search_t* search, choice_t* best, size_t* num_best)
     }
 }
 
-static const partition_cost_t start_costs[] = {COST_ENTROPY_SUM, COST_ENTROPY_MAX, COST_UNIFORM};
+static const partition_cost_t start_costs[] = {COST_VARIANCE, COST_ENTROPY_SUM, COST_ENTROPY_MAX,
+                                               COST_UNIFORM};
 
 /// Fills best[NUM_POLISHED]; returns how many different choices there are.
 static size_t search_grid(search_t* search, const play_set_t* nodes, choice_t* best)

@@ -270,6 +270,9 @@ int main(int argc, char** argv)
         return OUTCOME_USAGE;
     }
     const char* directory = argc == 2 ? argv[1] : NULL;
+    printf(
+        "# Sections 4 and 5 of Zhang et al. 2015 again\n\n"
+        "Made, with plots, by `sh tests/benchmark/paper_study.sh build/release/tests/paper_study DIR`.\n\n");
     print_printed_tables();
     printf("\n## All costs: 30 plays to 6\n\n"
            "In %% of the output's range. Training-like: alternations that decay from the whole range to a "
