@@ -36,7 +36,9 @@ typedef struct {
 /// - ensemble: ensemble.h; its partition tells which play is nearest to which, its cost is the RMS error.
 /// The other costs keep the output in negative saturation as it was. `initial` is interpolated in the radius.
 /// What was done is recorded in identification.compression; its error_bound adds up over repeated
-/// compressions. Where no play can move, one without weight remains.
+/// compressions. It holds for every input within the range from negative saturation, and from any start
+/// (CONTRACT, --initial) where no radius is above model_largest_moving_radius: a wider play stays where its
+/// start put it. Where no play can move, one without weight remains.
 model_t compress_model(const model_t* model, const compress_options_t* options, compression_t* compression);
 
 /// Likewise with the least number of plays whose error_bound is at most `tolerance` >= 0 [output units];

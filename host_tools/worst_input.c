@@ -46,7 +46,7 @@ double* worst_input(const model_t* model, const replacement_t* replacement, size
     const double low = model->input_min;
     const double high = model->input_max;
     pieces_t pieces = pieces_of(model, replacement);
-    double* input = xcalloc(pieces.count + 1, sizeof(double));
+    double* input = xcalloc(pieces.count + 2, sizeof(double));
     size_t count = 0;
     input[count++] = low;
     bool falling = false; // lambda's slope: -1, or +1 as in negative saturation
@@ -62,6 +62,9 @@ double* worst_input(const model_t* model, const replacement_t* replacement, size
         state += (falling ? 1.0 : -1.0) * (piece->to - piece->from);
     }
     free(pieces.piece);
+    if (count == 1) {
+        input[count++] = low; // a record has two samples
+    }
     *num_samples = count;
     return input;
 }
