@@ -139,7 +139,7 @@ static division_t divide(const scaled_t* scaled, size_t least_groups, size_t mos
         break;
     case COST_WASSERSTEIN:
     case COST_VARIANCE:
-        divide_by_distance(&scaled->plays, &own, &division);
+        divide_by_distance(&scaled->plays, &own, least_groups, &division);
         break;
     case COST_UNIFORM:
     case COST_ENSEMBLE:

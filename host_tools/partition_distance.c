@@ -14,6 +14,7 @@ typedef struct {
     const double* previous; ///< [num_plays]
     double* next;           ///< [num_plays]
     uint32_t* start;        ///< [num_plays]
+    double most_cost;       ///< dearer divisions are not looked for
     size_t evaluations;
 } row_t;
 
@@ -43,17 +44,24 @@ static void fill_end(row_t* row, size_t end, size_t low, size_t high)
     row->start[end - 1] = (uint32_t)best;
 }
 
-/// The ends from ... to, whose best starts lie in low ... high.
+/// The ends from ... to, whose best starts lie in low ... high. The cost does not fall with the end.
 static void fill_ends(row_t* row, size_t from, size_t to, size_t low, size_t high)
 {
     while (from <= to) {
         const size_t end = from + (to - from) / 2;
         fill_end(row, end, low, high < end - 1 ? high + 1 : end);
         const size_t best = row->start[end - 1];
-        // The shorter half of the work is left to the loop.
-        fill_ends(row, from, end - 1, low, best);
-        from = end + 1;
-        low = best;
+        if (row->next[end - 1] > row->most_cost) {
+            for (size_t dearer = end; dearer <= to; ++dearer) {
+                row->next[dearer - 1] = (double)INFINITY;
+            }
+            to = end - 1;
+            high = best;
+        } else {
+            fill_ends(row, from, end - 1, low, best);
+            from = end + 1;
+            low = best;
+        }
     }
 }
 
@@ -68,13 +76,43 @@ typedef struct {
     double* half;    ///< [num_plays] wasserstein: up to median i
     uint32_t* start; ///< [num_plays] where the last group begins when it ends with play i
     uint32_t* median;
+    double most_cost; ///< costs above are left at infinity
     size_t evaluations;
 } rows_t;
 
-static rows_t rows_new(const play_set_t* plays, const partition_terms_t* terms)
+/// What num_groups groups can certainly be had for: ends at equal steps of sum weight^a gap^(1-a), a = 1/2
+/// for k-median and 1/3 for k-means, the densities of good quantizers (Panter and Dite 1951).
+static double known_cost(const play_set_t* plays, size_t num_groups, partition_cost_t cost)
 {
     const size_t num_plays = plays->num_plays;
-    rows_t rows = {.plays = plays, .terms = terms};
+    const double exponent = cost == COST_VARIANCE ? 1.0 / 3.0 : 0.5;
+    double* upto = xcalloc(num_plays + 1, sizeof(double));
+    for (size_t j = 0; j < num_plays; ++j) {
+        const double gap = j > 0 ? plays->radius[j] - plays->radius[j - 1] : 0.0;
+        upto[j + 1] = upto[j] + pow(plays->weight[j], exponent) * pow(gap, 1.0 - exponent);
+    }
+    double total = 0.0;
+    size_t start = 0;
+    for (size_t k = 1; k <= num_groups; ++k) {
+        const double step = upto[num_plays] * ((double)k / (double)num_groups);
+        const size_t last = num_plays - (num_groups - k);
+        size_t end = k == num_groups ? num_plays : start + 1;
+        while (end < last && upto[end] < step) {
+            ++end;
+        }
+        total += group_cost(plays, start, end, cost);
+        start = end;
+    }
+    free(upto);
+    // The table's sums are rounded otherwise.
+    return total * (1.0 + 1e-9);
+}
+
+/// most_cost: see rows_t.
+static rows_t rows_new(const play_set_t* plays, const partition_terms_t* terms, double most_cost)
+{
+    const size_t num_plays = plays->num_plays;
+    rows_t rows = {.plays = plays, .terms = terms, .most_cost = most_cost};
     rows.table =
         interval_table_new(plays, terms->cost == COST_VARIANCE ? interval_inertia : interval_distance);
     rows.least = xmalloc((num_plays + 1) * sizeof(double));
@@ -113,15 +151,18 @@ static void rows_next(rows_t* rows, bool last)
     const size_t high = low == 0 && !rows->terms->zero_is_free ? 0 : num_plays - 1;
     const size_t first_end = last && !rows->terms->limit_is_free ? num_plays : low + 1;
     if (rows->terms->cost == COST_VARIANCE) {
-        const row_t whole = {&rows->table, join_inertia, rows->least, rows->half, rows->start, 0};
+        const row_t whole = {
+            &rows->table, join_inertia, rows->least, rows->half, rows->start, rows->most_cost, 0};
         fill_row(rows, whole, first_end, low, high);
         memcpy(rows->least + first_end, rows->half + first_end - 1,
                (num_plays + 1 - first_end) * sizeof(double));
     } else {
         // The play at the median counts for nothing in its group, so either half holds it.
-        const row_t up = {&rows->table, join_distance_to_last, rows->least, rows->half, rows->start, 0};
+        const row_t up = {
+            &rows->table, join_distance_to_last, rows->least, rows->half, rows->start, rows->most_cost, 0};
         fill_row(rows, up, low + 1, low, high);
-        const row_t on = {&rows->table, join_distance_to_first, rows->half, rows->least + 1, rows->median, 0};
+        const row_t on = {&rows->table, join_distance_to_first, rows->half, rows->least + 1,
+                          rows->median, rows->most_cost,        0};
         fill_row(rows, on, first_end, low, num_plays - 1);
     }
     // Each group needs a play.
@@ -154,9 +195,10 @@ static double rows_cost(const rows_t* rows, size_t* last_end)
     return least;
 }
 
-void divide_by_distance(const play_set_t* plays, const partition_terms_t* terms, division_t* division)
+void divide_by_distance(const play_set_t* plays, const partition_terms_t* terms, size_t least_groups,
+                        division_t* division)
 {
-    rows_t rows = rows_new(plays, terms);
+    rows_t rows = rows_new(plays, terms, known_cost(plays, least_groups, terms->cost));
     for (size_t k = 1; k <= division->most_groups; ++k) {
         rows_next(&rows, k == division->most_groups);
         for (size_t end = k; end <= plays->num_plays; ++end) {
@@ -170,7 +212,7 @@ void divide_by_distance(const play_set_t* plays, const partition_terms_t* terms,
 
 size_t partition_least_groups(const play_set_t* plays, const partition_terms_t* terms, double cost)
 {
-    rows_t rows = rows_new(plays, terms);
+    rows_t rows = rows_new(plays, terms, (double)INFINITY);
     size_t last_end;
     do {
         rows_next(&rows, false);

@@ -16,8 +16,9 @@ typedef struct {
 
 /// Entropy costs, for least_groups ... most_groups groups.
 void divide_by_entropy(const play_set_t* plays, size_t least_groups, bool maximum, division_t* division);
-/// Costs wasserstein and variance, for 1 ... most_groups groups.
-void divide_by_distance(const play_set_t* plays, const partition_terms_t* terms, division_t* division);
+/// Costs wasserstein and variance, likewise.
+void divide_by_distance(const play_set_t* plays, const partition_terms_t* terms, size_t least_groups,
+                        division_t* division);
 
 /// All partitions into division->most_groups groups, one by one.
 void divide_exhaustively(const play_set_t* plays, const partition_terms_t* terms, division_t* division);
