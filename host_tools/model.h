@@ -6,6 +6,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/// How many plays a model may have; firmware takes HYST_MAX_PLAYS of lib/ (hyst emit).
+enum { MODEL_MAX_PLAYS = 1000000 };
+
 typedef enum { CURVE_LINEAR, CURVE_TANH, CURVE_TABLE } curve_type_t;
 
 /// gain * f(slope * v + shift) + offset with f the identity or tanh; or piecewise linear through (x, y),

@@ -1,4 +1,3 @@
-#include "hyst/hyst.h"
 #include "model.h"
 #include <math.h>
 #include <stdarg.h>
@@ -111,8 +110,8 @@ static model_fault_t check_curve(const model_t* model, const curve_t* curve, con
 
 static model_fault_t check_plays(const model_t* model)
 {
-    if (model->num_plays == 0 || model->num_plays > HYST_MAX_PLAYS) {
-        return fault("radii", NULL, -1, "%zu plays, expected 1 to %d", model->num_plays, HYST_MAX_PLAYS);
+    if (model->num_plays == 0 || model->num_plays > MODEL_MAX_PLAYS) {
+        return fault("radii", NULL, -1, "%zu plays, expected 1 to %d", model->num_plays, MODEL_MAX_PLAYS);
     }
     for (size_t i = 0; i < model->num_plays; ++i) {
         const double radius = model->radius[i];

@@ -1,135 +1,192 @@
-#include "partition.h"
 #include "model.h"
+#include "partition_internal.h"
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
-/// Stages of the dynamic programme: least[k * (num_plays + 1) + i] is the least cost of the first i plays in
-/// k groups, before[...] the end of group k - 1 in that division.
-typedef struct {
-    size_t num_plays, num_groups;
-    partition_cost_t cost;
-    double* least;
-    size_t* before;
-} stages_t;
-
-static double combined(partition_cost_t cost, double groups, double group)
+double cost_combined(partition_cost_t cost, double groups, double group)
 {
     return cost == COST_ENTROPY_MAX ? fmax(groups, group) : groups + group;
 }
 
-static group_sums_t sums_of(const play_set_t* plays, size_t first, size_t end)
+static double entropy_loss(const play_set_t* plays, size_t first, size_t end)
 {
     group_sums_t sums = group_sums_begin(plays->radius[first]);
     for (size_t j = first; j < end; ++j) {
         group_sums_add(&sums, plays->radius[j], plays->weight[j]);
     }
-    return sums;
+    return group_loss(&sums);
+}
+
+double group_cost(const play_set_t* plays, size_t first, size_t end, partition_cost_t cost)
+{
+    switch (cost) {
+    case COST_WASSERSTEIN:
+        return group_distance(plays, first, end, plays->radius[group_median(plays, first, end)]);
+    case COST_VARIANCE:
+        return group_inertia(plays, first, end);
+    case COST_ENTROPY_SUM:
+    case COST_ENTROPY_MAX:
+    case COST_UNIFORM:
+    case COST_ENSEMBLE:
+        break;
+    }
+    return entropy_loss(plays, first, end);
+}
+
+/// Radii and weights times powers of two, so that their squares neither overflow nor vanish.
+typedef struct {
+    play_set_t plays;
+    double* values;
+    int radius_exponent, weight_exponent;
+} scaled_t;
+
+static int exponent_of_largest(const double* values, size_t count)
+{
+    double largest = 0.0;
+    for (size_t j = 0; j < count; ++j) {
+        largest = fmax(largest, values[j]);
+    }
+    int exponent;
+    (void)frexp(largest, &exponent);
+    return exponent;
+}
+
+static scaled_t scaled_new(const play_set_t* plays)
+{
+    const size_t num_plays = plays->num_plays;
+    scaled_t scaled = {.values = xmalloc(2 * num_plays * sizeof(double))};
+    scaled.radius_exponent = exponent_of_largest(plays->radius, num_plays);
+    scaled.weight_exponent = exponent_of_largest(plays->weight, num_plays);
+    for (size_t j = 0; j < num_plays; ++j) {
+        scaled.values[j] = ldexp(plays->radius[j], -scaled.radius_exponent);
+        scaled.values[num_plays + j] = ldexp(plays->weight[j], -scaled.weight_exponent);
+    }
+    scaled.plays = (play_set_t){scaled.values, scaled.values + num_plays, num_plays};
+    return scaled;
+}
+
+static partition_terms_t scaled_terms(const scaled_t* scaled, const partition_terms_t* terms)
+{
+    partition_terms_t result = *terms;
+    result.limit = ldexp(terms->limit, -scaled->radius_exponent);
+    return result;
+}
+
+static int cost_exponent(const scaled_t* scaled, partition_cost_t cost)
+{
+    return scaled->weight_exponent + (cost == COST_VARIANCE ? 2 : 1) * scaled->radius_exponent;
+}
+
+static double scaled_cost(const scaled_t* scaled, const size_t* beta, size_t num_groups,
+                          const partition_terms_t* terms)
+{
+    const play_set_t* plays = &scaled->plays;
+    double total = 0.0;
+    for (size_t k = 0; k < num_groups; ++k) {
+        total = cost_combined(terms->cost, total, group_cost(plays, beta[k], beta[k + 1], terms->cost));
+    }
+    total += group_distance(plays, 0, beta[0], 0.0);
+    if (beta[num_groups] < plays->num_plays) {
+        const double limit = scaled_terms(scaled, terms).limit;
+        total += group_distance(plays, beta[num_groups], plays->num_plays, limit);
+    }
+    return ldexp(total, cost_exponent(scaled, terms->cost));
+}
+
+double partition_cost_on(const play_set_t* plays, const size_t* beta, size_t num_groups,
+                         const partition_terms_t* terms)
+{
+    scaled_t scaled = scaled_new(plays);
+    const double cost = scaled_cost(&scaled, beta, num_groups, terms);
+    free(scaled.values);
+    return cost;
 }
 
 double partition_cost(const play_set_t* plays, const size_t* beta, size_t num_groups, partition_cost_t cost)
 {
-    double total = 0.0;
-    for (size_t k = 0; k < num_groups; ++k) {
-        const group_sums_t sums = sums_of(plays, beta[k], beta[k + 1]);
-        total = combined(cost, total, group_loss(&sums));
-    }
-    return total;
+    const partition_terms_t terms = {.cost = cost};
+    return partition_cost_on(plays, beta, num_groups, &terms);
 }
 
-static stages_t stages_new(size_t num_plays, size_t num_groups, partition_cost_t cost)
+static void divide_uniformly(size_t num_groups, division_t* division)
 {
-    const size_t length = (num_groups + 1) * (num_plays + 1);
-    stages_t stages = {.num_plays = num_plays, .num_groups = num_groups, .cost = cost};
-    stages.least = xmalloc(length * sizeof(double));
-    stages.before = xcalloc(length, sizeof(size_t));
-    for (size_t i = 0; i < length; ++i) {
-        stages.least[i] = (double)INFINITY;
+    const size_t num_plays = division->num_plays;
+    for (size_t k = 1; k <= num_groups; ++k) {
+        const size_t end = (k * num_plays + num_groups / 2) / num_groups;
+        const size_t start = ((k - 1) * num_plays + num_groups / 2) / num_groups;
+        division->before[k * (num_plays + 1) + end] = (uint32_t)start;
     }
-    stages.least[0] = 0.0;
-    return stages;
+    division->last_end[num_groups] = num_plays;
+    division->evaluations = num_groups;
 }
 
-/// The numbers of groups *low ... *high that may lie before the group start + 1 ... end: each of them needs a
-/// play, and so does each group behind. False when there is none.
-static bool groups_before(const stages_t* stages, size_t start, size_t end, size_t* low, size_t* high)
+static division_t divide(const scaled_t* scaled, size_t least_groups, size_t most_groups,
+                         const partition_terms_t* terms)
 {
-    const size_t behind = stages->num_plays - end;
-    const size_t others = stages->num_groups - 1;
-    *low = others > behind ? others - behind : 0;
-    *low = *low == 0 && start > 0 ? 1 : *low;
-    *high = behind == 0 ? others : others - (others > 0 ? 1 : 0);
-    *high = *high < start ? *high : start;
-    *low = behind == 0 ? others : *low;
-    return *low <= *high && (behind == 0 || others > 0);
+    const size_t num_plays = scaled->plays.num_plays;
+    division_t division = {.num_plays = num_plays, .most_groups = most_groups};
+    division.before = xcalloc((most_groups + 1) * (num_plays + 1), sizeof(uint32_t));
+    division.last_end = xcalloc(most_groups + 1, sizeof(size_t));
+    const partition_terms_t own = scaled_terms(scaled, terms);
+    if (terms->exhaustive) {
+        divide_exhaustively(&scaled->plays, &own, &division);
+        return division;
+    }
+    switch (terms->cost) {
+    case COST_ENTROPY_SUM:
+    case COST_ENTROPY_MAX:
+        divide_by_entropy(&scaled->plays, least_groups, terms->cost == COST_ENTROPY_MAX, &division);
+        break;
+    case COST_WASSERSTEIN:
+    case COST_VARIANCE:
+        divide_by_distance(&scaled->plays, &own, least_groups, &division);
+        break;
+    case COST_UNIFORM:
+    case COST_ENSEMBLE:
+        break;
+    }
+    return division;
 }
 
-/// Offers the group start + 1 ... end to every stage it can belong to.
-static void offer(stages_t* stages, size_t start, size_t end, size_t low, size_t high, double loss)
+static partition_t walk_back(const division_t* division, size_t num_groups)
 {
-    const size_t width = stages->num_plays + 1;
-    for (size_t k = low; k <= high; ++k) {
-        const double total = combined(stages->cost, stages->least[k * width + start], loss);
-        double* least = &stages->least[(k + 1) * width + end];
-        if (isinf(*least) || total < *least - 1e-12 * *least) {
-            *least = total;
-            stages->before[(k + 1) * width + end] = start;
-        }
+    partition_t partition = {.num_groups = num_groups, .beta = xcalloc(num_groups + 1, sizeof(size_t))};
+    size_t end = division->last_end[num_groups];
+    for (size_t k = num_groups; k > 0; --k) {
+        partition.beta[k] = end;
+        end = division->before[k * (division->num_plays + 1) + end];
     }
-}
-
-static void walk_back(const stages_t* stages, size_t* beta)
-{
-    size_t end = stages->num_plays;
-    for (size_t k = stages->num_groups; k > 0; --k) {
-        beta[k] = end;
-        end = stages->before[k * (stages->num_plays + 1) + end];
-    }
-    beta[0] = 0;
-}
-
-/// Starts are visited in ascending order, so that the stages up to a start are complete when it is reached
-/// and a group grows by one play at a time: every group is evaluated once, in O(1).
-static size_t fill(stages_t* stages, const play_set_t* plays)
-{
-    size_t evaluations = 0;
-    for (size_t start = 0; start < plays->num_plays; ++start) {
-        group_sums_t sums = group_sums_begin(plays->radius[start]);
-        for (size_t end = start + 1; end <= plays->num_plays; ++end) {
-            group_sums_add(&sums, plays->radius[end - 1], plays->weight[end - 1]);
-            size_t low;
-            size_t high;
-            if (groups_before(stages, start, end, &low, &high)) {
-                ++evaluations;
-                offer(stages, start, end, low, high, group_loss(&sums));
-            }
-        }
-    }
-    return evaluations;
-}
-
-static partition_t uniform(const play_set_t* plays, partition_t partition)
-{
-    for (size_t k = 0; k <= partition.num_groups; ++k) {
-        partition.beta[k] = (k * plays->num_plays + partition.num_groups / 2) / partition.num_groups;
-    }
-    partition.evaluations = partition.num_groups;
+    partition.beta[0] = end;
     return partition;
+}
+
+partition_t* partition_find_all(const play_set_t* plays, size_t least_groups, size_t most_groups,
+                                const partition_terms_t* terms)
+{
+    scaled_t scaled = scaled_new(plays);
+    division_t division = divide(&scaled, least_groups, most_groups, terms);
+    partition_t* partitions = xcalloc(most_groups - least_groups + 1, sizeof(partition_t));
+    for (size_t k = least_groups; k <= most_groups; ++k) {
+        if (terms->cost == COST_UNIFORM) {
+            divide_uniformly(k, &division);
+        }
+        partition_t* partition = &partitions[k - least_groups];
+        *partition = walk_back(&division, k);
+        partition->evaluations = division.evaluations;
+        partition->cost = scaled_cost(&scaled, partition->beta, k, terms);
+    }
+    free(division.before);
+    free(division.last_end);
+    free(scaled.values);
+    return partitions;
 }
 
 partition_t partition_find(const play_set_t* plays, size_t num_groups, partition_cost_t cost)
 {
-    partition_t partition = {.num_groups = num_groups, .beta = xcalloc(num_groups + 1, sizeof(size_t))};
-    if (cost == COST_UNIFORM) {
-        partition = uniform(plays, partition);
-    } else {
-        stages_t stages = stages_new(plays->num_plays, num_groups, cost);
-        partition.evaluations = fill(&stages, plays);
-        walk_back(&stages, partition.beta);
-        free(stages.least);
-        free(stages.before);
-    }
-    partition.cost = partition_cost(plays, partition.beta, num_groups, cost);
+    const partition_terms_t terms = {.cost = cost};
+    partition_t* only = partition_find_all(plays, num_groups, num_groups, &terms);
+    const partition_t partition = only[0];
+    free(only);
     return partition;
 }
 

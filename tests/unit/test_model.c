@@ -103,7 +103,7 @@ static void test_plays(void)
     assert_fault("radii", NULL, 0);
     model_set_num_plays(&model, 0);
     assert_fault("radii", NULL, -1);
-    model_set_num_plays(&model, 4097);
+    model_set_num_plays(&model, MODEL_MAX_PLAYS + 1);
     assert_fault("radii", NULL, -1);
 }
 
