@@ -110,15 +110,6 @@ static void report_text(const request_t* request, const model_t* before, const m
     printf("\nevaluations  %zu\n", compression->partition.evaluations);
 }
 
-static outcome_t check_result(const char* path, const model_t* after)
-{
-    const model_fault_t fault = model_check(after);
-    return fault.key == NULL
-               ? OUTCOME_OK
-               : message_error(OUTCOME_NUMERICAL, (location_t){.file = path},
-                               "the compressed model would not be valid: \"%s\": %s", fault.key, fault.text);
-}
-
 static outcome_t compress_file(const options_t* options, const request_t* request, const char* path)
 {
     model_t before;
@@ -134,10 +125,7 @@ static outcome_t compress_file(const options_t* options, const request_t* reques
         message_note((location_t){.file = path}, "only %zu plays are there to keep, %zu were asked for",
                      after.num_plays, request->compress.num_plays);
     }
-    outcome = check_result(path, &after);
-    if (outcome == OUTCOME_OK) {
-        outcome = model_write(options->output, &after);
-    }
+    outcome = model_write(options->output, &after);
     if (outcome == OUTCOME_OK && !output_is_stdout(options->output)) {
         (options->json != 0 ? report_json : report_text)(request, &before, &after, &compression);
     }

@@ -1,7 +1,6 @@
 #include "command.h"
 #include "identify.h"
 #include "model_file.h"
-#include <cblas.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -225,8 +224,6 @@ static outcome_t run(const options_t* given, const char* path)
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    // Small matrices: threads cost more than they gain, and one thread gives the same bits each time.
-    openblas_set_num_threads(1);
     identify_result_t result;
     outcome = identify(record.path, record.input, record.output, record.num_samples, &options, &result);
     if (outcome == OUTCOME_OK) {

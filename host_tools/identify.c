@@ -4,6 +4,7 @@
 #include "identify_samples.h"
 #include "identify_start.h"
 #include "reference.h"
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -434,6 +435,8 @@ outcome_t identify(const char* path, const double* input, const double* output, 
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
+    // Small matrices: threads cost more than they gain, and one thread gives the same bits each time.
+    openblas_set_num_threads(1);
     p.search = samples_new(input, output, num_samples, p.centre, p.half_range, SEARCH_SAMPLES);
     place_knots(&p);
     families_t families = {0};

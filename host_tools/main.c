@@ -20,6 +20,7 @@ typedef struct {
 static const verb_t verbs[] = {
     {"identify", cmd_identify, "fits a model to a measured record"},
     {"compress", cmd_compress, "merges a model's plays into fewer"},
+    {"emit", cmd_emit, "writes a model as a C header for firmware"},
     {"simulate", cmd_simulate, "runs a model over a record's input"},
     {"invert", cmd_invert, "finds the input that gives a wanted output"},
 };

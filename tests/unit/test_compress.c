@@ -129,8 +129,8 @@ static model_t classical_model(const double* radius, const double* weight, size_
     return model;
 }
 
-/// Plays 0, 0.25, 0.5 of weight 1 become one at 0.25 of weight 3: G = 1 on [0, 0.25) and -1 on [0.25, 0.5), so
-/// the bound is 2 * 0.25.
+/// Plays 0, 0.25, 0.5 of weight 1 become one at 0.25 of weight 3: G = 1 on [0, 0.25) and -1 on [0.25, 0.5),
+/// so the bound is 2 * 0.25.
 static void error_bound_is_attained(void)
 {
     model_t model = classical_model((const double[]){0.0, 0.25, 0.5}, (const double[]){1.0, 1.0, 1.0}, 3);

@@ -211,6 +211,30 @@ static void test_auto_keeps_to_the_noise(void)
     TEST_ASSERT_TRUE(unseen_error() < grid_bound());
 }
 
+/// Envelopes of any steepness and place: what comes out must keep every condition of a model, above all the
+/// order of the envelopes, which is tightest somewhere between the samples.
+static void test_result_is_always_a_valid_model(void)
+{
+    random_t random = random_new(31);
+    for (int round = 0; round < 6; round++) {
+        make_vo2();
+        const double slope = random_uniform(&random, 0.05, 0.4);
+        truth.ascending = curve_tanh(slope, -slope * random_uniform(&random, 55, 70));
+        truth.descending = curve_tanh(random_uniform(&random, 0.5, 2) * slope, -slope * 55);
+        const double least = model_least_radius(&truth);
+        const double largest = model_largest_moving_radius(&truth);
+        for (size_t j = 0; j < PLAYS; j++) {
+            truth.radius[j] = least + (double)j / PLAYS * fmax(largest - least, 0);
+        }
+        make_record(shrinking, START_NEGATIVE_SATURATION, 0.01);
+        run_identify(round % 2 == 0 ? IDENTIFY_AUTO : IDENTIFY_TANH);
+        identify_result_free(&result);
+        model_free(&truth);
+        has_result = false;
+        truth = model_new("truth");
+    }
+}
+
 static void test_table_family_follows_a_tanh_truth(void)
 {
     make_vo2();
@@ -311,6 +335,7 @@ int main(void)
     RUN_TEST(test_classical_model_is_recovered);
     RUN_TEST(test_vo2_curves_are_recovered);
     RUN_TEST(test_auto_keeps_to_the_noise);
+    RUN_TEST(test_result_is_always_a_valid_model);
     RUN_TEST(test_table_family_follows_a_tanh_truth);
     RUN_TEST(test_foreign_past_is_left_out);
     RUN_TEST(test_growing_loops_estimate_the_start);
