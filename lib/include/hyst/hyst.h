@@ -22,7 +22,7 @@
 /// snapshots being read are constant and may be shared by any number of contexts.
 ///
 /// Where an interrupt steps a state, another context must mask that interrupt around each of its own calls
-/// with the same state: around step, reset and restore, and around inverse, save and snapshot_write too.
+/// with the same state: around step, reset and restore, and around inverse, save and seal too.
 /// These only read, but would read half of one sample and half of the next (and a checksum made over such a
 /// mixture is right and does not tell). To read a single field needs no mask where a 32-bit load is one
 /// instruction, as on every Cortex-M and RV32: it is of the last sample or of the one before.
