@@ -1,15 +1,15 @@
 #include "port.h"
 #include "semihosting.h"
 
-/// SysTick (Armv7-M, B3.3): a 24-bit counter down, on the processor clock.
+/// SysTick (Armv6-M, B3.3): a 24-bit counter down, on the processor's clock.
 #define SYSTICK_CONTROL                   (*(volatile uint32_t*)0xE000E010u)
 #define SYSTICK_RELOAD                    (*(volatile uint32_t*)0xE000E014u)
 #define SYSTICK_CURRENT                   (*(volatile uint32_t*)0xE000E018u)
 #define SYSTICK_ENABLE_ON_PROCESSOR_CLOCK 5u
 #define SYSTICK_MASK                      0x00FFFFFFu
 
-/// QEMU with -icount shift=0 executes one instruction per nanosecond; a tick of the board's 25 MHz is 40 ns.
-#define INSTRUCTIONS_PER_TICK 40u
+/// With -icount shift=0 QEMU executes one instruction per nanosecond.
+#define PICOSECONDS_PER_INSTRUCTION 1000u
 
 void port_print(const char* text)
 {
@@ -25,5 +25,6 @@ void port_count_start(void)
 
 uint32_t port_count_instructions(void)
 {
-    return ((0u - SYSTICK_CURRENT) & SYSTICK_MASK) * INSTRUCTIONS_PER_TICK;
+    const uint64_t ticks = (0u - SYSTICK_CURRENT) & SYSTICK_MASK;
+    return (uint32_t)(ticks * PICOSECONDS_PER_TICK / PICOSECONDS_PER_INSTRUCTION);
 }

@@ -1,4 +1,4 @@
-/// Arm semihosting, as far as a test needs it.
+/// Semihosting, as far as a test needs it.
 #ifndef HYST_PORT_SEMIHOSTING_H
 #define HYST_PORT_SEMIHOSTING_H
 
