@@ -1,0 +1,34 @@
+# The host's ctest entries target.<core>_<what>: what is built for the cores of ports/cores.txt and run under emulation.
+# 77: skipped aloud, tools are missing or HYST_HOST_ONLY=1 is set.
+function(hyst_target_test core what script)
+  add_test(NAME target.${core}_${what}
+    COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/target/${core}_${what} ${ARGN})
+  set_tests_properties(target.${core}_${what} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+endfunction()
+
+# A generated model, and one by hand whose golden values follow from the equations with pencil and paper.
+file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/target)
+set(film_model ${CMAKE_CURRENT_BINARY_DIR}/target/vo2_film.h)
+set(film_source ${PROJECT_SOURCE_DIR}/host_tools/demo/vo2_film.json)
+add_custom_command(OUTPUT ${film_model} DEPENDS hyst_command ${film_source} VERBATIM
+  COMMAND hyst_command emit ${film_source} --symbol vo2_film -o ${film_model})
+hyst_self_test(self_test_film ${film_model} vo2_film)
+target_sources(self_test_film PRIVATE ${film_model})
+set(hand_model ${CMAKE_CURRENT_SOURCE_DIR}/support/hand_model.h)
+hyst_self_test(self_test_hand ${hand_model} hand)
+add_test(NAME ports.host_self_test_film COMMAND self_test_film)
+add_test(NAME ports.host_self_test_hand COMMAND self_test_hand)
+
+# One core of each floating-point unit, and one without, also run the long tests against the double model.
+set(property_cores cortex_m4f cortex_m55 rv32imc)
+file(STRINGS ${PROJECT_SOURCE_DIR}/ports/cores.txt core_lines REGEX "^[a-z0-9]")
+foreach(core_line ${core_lines})
+  string(REGEX REPLACE " *[|].*" "" core ${core_line})
+  hyst_target_test(${core} self_test ports/same_bits.sh ${film_model} vo2_film $<TARGET_FILE:self_test_film> ${core})
+  hyst_target_test(${core} hand_model ports/same_bits.sh ${hand_model} hand $<TARGET_FILE:self_test_hand> ${core})
+  hyst_target_test(${core} unit target/unity.sh ${core} unit)
+  if(core IN_LIST property_cores)
+    hyst_target_test(${core} property target/unity.sh ${core} property)
+  endif()
+endforeach()
