@@ -20,6 +20,15 @@ hyst_self_test(self_test_hand ${hand_model} hand)
 add_test(NAME ports.host_self_test_film COMMAND self_test_film)
 add_test(NAME ports.host_self_test_hand COMMAND self_test_hand)
 
+# The super-loop example, on this machine and with a real interrupt.
+set(actuator_header ${CMAKE_CURRENT_BINARY_DIR}/target/actuator.h)
+add_custom_command(OUTPUT ${actuator_header} DEPENDS hyst_command ${film_source} VERBATIM
+  COMMAND hyst_command emit ${film_source} --symbol actuator -o ${actuator_header})
+hyst_example_superloop(example_superloop_host ${actuator_header})
+add_test(NAME ports.host_superloop COMMAND example_superloop_host)
+hyst_target_test(cortex_m4f superloop target/superloop.sh cortex_m4f ${actuator_header}
+  $<TARGET_FILE:example_superloop_host>)
+
 # One core of each floating-point unit, and one without, also run the long tests against the double model.
 set(property_cores cortex_m4f cortex_m55 rv32imc)
 file(STRINGS ${PROJECT_SOURCE_DIR}/ports/cores.txt core_lines REGEX "^[a-z0-9]")
