@@ -9,7 +9,9 @@
 enum {
     WORD_BYTES = 4,
     MODEL_BYTES = 10 * WORD_BYTES,
-    STATE_BYTES = 6 * WORD_BYTES,
+    STATE_BYTES = 8 * WORD_BYTES,
+    SEGMENT_BYTES = 4 * WORD_BYTES,
+    PLAY_BYTES = 3 * WORD_BYTES,
     KNOT_BYTES = 7 * WORD_BYTES,
     GOLDEN_BYTES = 5 * WORD_BYTES,
 };
@@ -42,7 +44,7 @@ static void put_banner(const writer_t* writer)
             " * Regenerate: hyst emit MODEL -o HEADER --scalar f32 --symbol %s --table-error %s\n"
             " *\n"
             " * Use:\n"
-            " *   static float memory[%s_NUM_PLAYS];\n"
+            " *   static hyst_f32_segment_t memory[%s_NUM_PLAYS];\n"
             " *   static hyst_f32_state_t state;\n"
             " *   if (hyst_f32_init(&%s_model, &state, memory, %s_NUM_PLAYS) != HYST_STATUS_OK) { stop(); }\n"
             " *   float output = hyst_f32_step(&%s_model, &state, input);\n"
@@ -124,7 +126,7 @@ static void put_macros(const writer_t* writer)
 {
     const hyst_f32_model_t* model = &writer->from->tabulated->model;
     const size_t flash =
-        MODEL_BYTES + 2 * WORD_BYTES * (size_t)model->num_plays + KNOT_BYTES * (size_t)model->num_knots;
+        MODEL_BYTES + PLAY_BYTES * (size_t)model->num_plays + KNOT_BYTES * (size_t)model->num_knots;
     put_text(writer, "NAME", writer->from->model->name);
     put_text(writer, "INPUT_UNIT", writer->from->model->input_unit);
     put_text(writer, "OUTPUT_UNIT", writer->from->model->output_unit);
@@ -132,7 +134,7 @@ static void put_macros(const writer_t* writer)
     put_value(writer, "INPUT_MAX", model->input_max, "input units");
     put_count(writer, "NUM_PLAYS", model->num_plays, "play operators");
     put_count(writer, "NUM_KNOTS", model->num_knots, "knots of the table of curves");
-    put_count(writer, "RAM_BYTES", STATE_BYTES + WORD_BYTES * (size_t)model->num_plays,
+    put_count(writer, "RAM_BYTES", STATE_BYTES + SEGMENT_BYTES * (size_t)model->num_plays,
               "state and memory, 32-bit target");
     put_count(writer, "FLASH_BYTES", flash, "model and arrays, 32-bit target");
     put_count(writer, "GOLDEN_FLASH_BYTES", GOLDEN_BYTES + 4 * WORD_BYTES * (size_t)GOLDEN_STEPS,
@@ -152,22 +154,23 @@ static void put_array_comment(const writer_t* writer, const char* what, const ch
     fputs(" */\n", writer->stream);
 }
 
-static void put_floats(const writer_t* writer, const char* name, const float* value)
-{
-    const uint32_t count = writer->from->tabulated->model.num_plays;
-    fprintf(writer->stream, "static const float %s_%s[] = {", writer->symbol, name);
-    for (uint32_t j = 0; j < count; ++j) {
-        fputs(j % 6 == 0 ? "\n    " : " ", writer->stream);
-        put_float(writer->stream, value[j]);
-        fputc(',', writer->stream);
-    }
-    fputs("\n};\n", writer->stream);
-}
-
 static void put_field(const writer_t* writer, const char* separator, const char* name, float value)
 {
     fprintf(writer->stream, "%s.%s = ", separator, name);
     put_float(writer->stream, value);
+}
+
+static void put_plays(const writer_t* writer)
+{
+    const hyst_f32_model_t* model = &writer->from->tabulated->model;
+    fprintf(writer->stream, "static const hyst_f32_play_t %s_play[] = {\n", writer->symbol);
+    for (uint32_t j = 0; j < model->num_plays; ++j) {
+        put_field(writer, "    {", "opening", model->play[j].opening);
+        put_field(writer, ", ", "loading", model->play[j].loading);
+        put_field(writer, ", ", "slope", model->play[j].slope);
+        fputs("},\n", writer->stream);
+    }
+    fputs("};\n", writer->stream);
 }
 
 static void put_knots(const writer_t* writer)
@@ -191,10 +194,9 @@ static void put_knots(const writer_t* writer)
 static void put_arrays(const writer_t* writer)
 {
     const emission_t* from = writer->from;
-    put_array_comment(writer, "radii, envelope units", "", "NUM_PLAYS");
-    put_floats(writer, "radius", from->tabulated->radius);
-    put_array_comment(writer, "weights per envelope unit, in ", from->model->output_unit, "NUM_PLAYS");
-    put_floats(writer, "weight", from->tabulated->weight);
+    put_array_comment(writer, "plays by radius and their loading curve, in ", from->model->output_unit,
+                      "NUM_PLAYS");
+    put_plays(writer);
     if (from->tabulated->model.num_knots > 0) {
         put_array_comment(writer, "curves over the input, in ", from->model->input_unit, "NUM_KNOTS");
         put_knots(writer);
@@ -215,8 +217,8 @@ static void put_model(const writer_t* writer)
     put_field(writer, ",\n    ", "input_max", model->input_max);
     put_field(writer, ",\n    ", "constant", model->constant);
     put_field(writer, ",\n    ", "nonhysteretic_slope", model->nonhysteretic_slope);
-    fprintf(writer->stream, ",\n    .radius = %s_radius,\n    .weight = %s_weight,\n", writer->symbol,
-            writer->symbol);
+    put_field(writer, ",\n    ", "moment", model->moment);
+    fprintf(writer->stream, ",\n    .play = %s_play,\n", writer->symbol);
     if (model->num_knots > 0) {
         fprintf(writer->stream, "    .knot = %s_knot,\n};\n\n", writer->symbol);
     } else {
@@ -265,8 +267,7 @@ static void put_assertions(const writer_t* writer)
     for (int language = 0; language < 2; ++language) {
         const char* keyword = language == 0 ? "static_assert" : "_Static_assert";
         fputs(language == 0 ? "#ifdef __cplusplus\n" : "#else\n", writer->stream);
-        put_length_assertion(writer, keyword, "radius", "NUM_PLAYS");
-        put_length_assertion(writer, keyword, "weight", "NUM_PLAYS");
+        put_length_assertion(writer, keyword, "play", "NUM_PLAYS");
         if (writer->from->tabulated->model.num_knots > 0) {
             put_length_assertion(writer, keyword, "knot", "NUM_KNOTS");
         }

@@ -39,16 +39,16 @@ static float input_at(const hyst_f32_model_t* model, size_t i)
 /// Wanted outputs go through the reachable ones in steps of 0.15, and a little beyond at both ends.
 static float wanted_at(const hyst_f32_model_t* model, const hyst_f32_state_t* state, size_t i)
 {
-    const hyst_f32_inverse_t here = hyst_f32_inverse(model, state, state->output);
+    const hyst_f32_reach_t reach = hyst_f32_reachable(model, state);
     const double part = -0.2 + 0.15 * (double)(i * 7 % 10);
-    const double low = (double)here.reachable_min;
-    const double high = (double)here.reachable_max;
+    const double low = (double)reach.reachable_min;
+    const double high = (double)reach.reachable_max;
     return (float)(low + part * (high - low));
 }
 
 hyst_status_t golden_make(const hyst_f32_model_t* model, golden_t* golden)
 {
-    float* memory = xcalloc(model->num_plays, sizeof(float));
+    hyst_f32_segment_t* memory = xcalloc(model->num_plays, sizeof *memory);
     hyst_f32_state_t state;
     const hyst_status_t status = hyst_f32_init(model, &state, memory, model->num_plays);
     for (size_t i = 0; status == HYST_STATUS_OK && i < GOLDEN_STEPS; ++i) {

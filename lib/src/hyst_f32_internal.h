@@ -43,15 +43,12 @@ static inline float hyst_f32_limit(const float x, const float low, const float h
     return x < high ? x : high;
 }
 
-/// A curve in the cell that begins at `knot`: exact at both knots, never above the next knot's value.
+/// A curve in the cell that begins at `knot`. Slopes are rounded so that it stays below the next knot's value
+/// (init checks it); the last knot belongs to the last cell.
 static inline float hyst_f32_line(const hyst_f32_knot_t* knot, const float v, const float value,
                                   const float slope, const float next_value)
 {
-    if (!(v < knot[1].input)) {
-        return next_value;
-    }
-    const float y = value + slope * (v - knot->input);
-    return y < next_value ? y : next_value;
+    return v < knot[1].input ? value + slope * (v - knot->input) : next_value;
 }
 
 static inline float hyst_f32_envelope(const hyst_f32_model_t* model, const uint32_t cell, const float v,
@@ -65,48 +62,21 @@ static inline float hyst_f32_envelope(const hyst_f32_model_t* model, const uint3
                   : hyst_f32_line(knot, v, knot->descending, knot->descending_slope, knot[1].descending);
 }
 
-static inline float hyst_f32_nonhysteretic(const hyst_f32_model_t* model, const uint32_t cell, const float v)
+/// D and the constant.
+static inline float hyst_f32_offset(const hyst_f32_model_t* model, const uint32_t cell, const float v)
 {
     if (model->num_knots == 0) {
-        return model->nonhysteretic_slope * v;
+        return model->constant + model->nonhysteretic_slope * v;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    return hyst_f32_line(knot, v, knot->nonhysteretic, knot->nonhysteretic_slope, knot[1].nonhysteretic);
+    return model->constant +
+           hyst_f32_line(knot, v, knot->nonhysteretic, knot->nonhysteretic_slope, knot[1].nonhysteretic);
 }
 
 /// Where a play goes that `envelope` pushes.
 static inline float hyst_f32_pushed(const float envelope, const float radius, const bool rising)
 {
     return rising ? envelope - radius : envelope + radius;
-}
-
-/// Whether the push moves a play in state w.
-static inline bool hyst_f32_moves(const float pushed, const float w, const bool rising)
-{
-    return rising ? pushed > w : pushed < w;
-}
-
-/// Eqs. (6) and (8): offset + (((p_0 w_0 + p_1 w_1) + p_2 w_2) + ...) after the plays in `memory` met
-/// `envelope`. The moved plays are stored in `store`, which may be `memory`, or nowhere when NULL.
-static inline float hyst_f32_respond(const hyst_f32_model_t* model, const float* memory, float* store,
-                                     const float envelope, const bool rising, const float offset)
-{
-    const float* radius = model->radius;
-    const float* weight = model->weight;
-    const uint32_t num_plays = model->num_plays;
-    float sum = 0.0f;
-    for (uint32_t j = 0; j < num_plays; ++j) {
-        float w = memory[j];
-        const float pushed = hyst_f32_pushed(envelope, radius[j], rising);
-        if (hyst_f32_moves(pushed, w, rising)) {
-            w = pushed;
-            if (store != NULL) {
-                store[j] = w;
-            }
-        }
-        sum += weight[j] * w;
-    }
-    return offset + sum;
 }
 
 /// The largest magnitude of either envelope over the range.
@@ -132,11 +102,15 @@ static inline float hyst_f32_middle(const hyst_f32_model_t* model)
 /// look first. 0 for a model without knots. v within the range.
 uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t guess, float v);
 
-/// Puts the state at `input` (within the range) with the memory as it is.
-void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
+/// The cell of input_max.
+static inline uint32_t hyst_f32_last_cell(const hyst_f32_model_t* model)
+{
+    return model->num_knots == 0 ? 0 : model->num_knots - 2;
+}
 
-/// Moves the state to v, finite and within the range; returns the output.
-float hyst_f32_move(const hyst_f32_model_t* model, hyst_f32_state_t* state, float v);
+/// Puts the state at `input` (within the range) with the memory and the plays' part of the output as they
+/// are.
+void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
 
 /// Negative saturation at input_min.
 void hyst_f32_saturate_negative(const hyst_f32_model_t* model, hyst_f32_state_t* state);

@@ -1,4 +1,4 @@
-#include "hyst_f32_internal.h"
+#include "hyst_f32_segments.h"
 
 /// An input within reach of one monotone move, and the output it would give.
 typedef struct {
@@ -12,35 +12,60 @@ typedef struct {
     const hyst_f32_state_t* state;
     float wanted;
     bool rising;
-    uint32_t cell; ///< the table's cell that holds both ends, after search_knots
+    uint32_t cell; ///< the table's cell that holds both ends, after search_cells
     point_t near;  ///< the end on the side of the present input
     point_t far;
 } search_t;
+
+/// The curves of a cell as lines through its first knot.
+typedef struct {
+    float input, envelope, envelope_slope, offset, offset_slope;
+} lines_t;
+
+static lines_t lines_of(const hyst_f32_model_t* model, const uint32_t cell, const bool rising)
+{
+    if (model->num_knots == 0) {
+        const lines_t identity = {0.0f, 0.0f, 1.0f, model->constant, model->nonhysteretic_slope};
+        return identity;
+    }
+    const hyst_f32_knot_t* knot = &model->knot[cell];
+    const lines_t lines = {knot->input, rising ? knot->ascending : knot->descending,
+                           rising ? knot->ascending_slope : knot->descending_slope,
+                           model->constant + knot->nonhysteretic, knot->nonhysteretic_slope};
+    return lines;
+}
 
 /// The output after `input`, which lies in `cell`: the very arithmetic of a step, without storing.
 static float look(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const uint32_t cell,
                   const float input, const bool rising)
 {
-    const float offset = model->constant + hyst_f32_nonhysteretic(model, cell, input);
     const float envelope = hyst_f32_envelope(model, cell, input, rising);
-    return rising ? hyst_f32_respond(model, state->memory, NULL, envelope, true, offset)
-                  : hyst_f32_respond(model, state->memory, NULL, envelope, false, offset);
+    hyst_f32_front_t front;
+    float plays = hyst_f32_forward(state->plays, rising);
+    if (hyst_f32_meet(model, state, rising, envelope, &front)) {
+        plays = hyst_f32_larger(front.sum, plays);
+    }
+    return hyst_f32_offset(model, cell, input) + hyst_f32_forward(plays, rising);
 }
 
-/// Narrows the stretch to one side of `input`; true when that input falls short.
+/// Narrows the stretch to one side of the point; true when it falls short.
+static bool narrow(search_t* search, const point_t point)
+{
+    const bool is_short = search->rising ? point.output < search->wanted : point.output > search->wanted;
+    point_t* end = is_short ? &search->near : &search->far;
+    *end = point;
+    return is_short;
+}
+
 static bool probe(search_t* search, const uint32_t cell, const float input)
 {
-    const float output = look(search->model, search->state, cell, input, search->rising);
-    const bool is_short = search->rising ? output < search->wanted : output > search->wanted;
-    point_t* end = is_short ? &search->near : &search->far;
-    end->input = input;
-    end->output = output;
-    return is_short;
+    const point_t point = {input, look(search->model, search->state, cell, input, search->rising)};
+    return narrow(search, point);
 }
 
 /// Narrows the stretch to one cell. Counts knots from the present input on, doubling the stride while they
 /// fall short (a tracked output is mostly near by), then halves: at most 2 log2(num_knots) probes.
-static void search_knots(search_t* search)
+static void search_cells(search_t* search)
 {
     const uint32_t present = search->state->cell;
     uint32_t low = 0;
@@ -60,59 +85,84 @@ static void search_knots(search_t* search)
     search->cell = search->rising ? present + low : present - low;
 }
 
-/// How many plays an input in the search's cell moves: the memory is 1-Lipschitz in the radius, so they are a
-/// prefix.
-static uint32_t count_moved(const search_t* search, const float input)
+/// Narrows the stretch by the point in the cell where the envelope reaches `ahead` and the plays' part `sum`,
+/// both in the direction of the move; true when the wanted output lies beyond.
+static bool probe_kink(search_t* search, const lines_t* lines, const float ahead, const float sum)
 {
-    const hyst_f32_model_t* model = search->model;
-    const float envelope = hyst_f32_envelope(model, search->cell, input, search->rising);
+    const bool rising = search->rising;
+    const float along = (hyst_f32_forward(ahead, rising) - lines->envelope) / lines->envelope_slope;
+    const float input = lines->input + along;
+    const float near = hyst_f32_forward(search->near.input, rising);
+    const float far = hyst_f32_forward(search->far.input, rising);
+    // A flat envelope gives no number where all of the cell is on one side.
+    if (!(hyst_f32_forward(input, rising) > near)) {
+        return true;
+    }
+    if (!(hyst_f32_forward(input, rising) < far)) {
+        return false;
+    }
+    const point_t point = {input, lines->offset + lines->offset_slope * (input - lines->input) +
+                                      hyst_f32_forward(sum, rising)};
+    return narrow(search, point);
+}
+
+/// How many segments are kept: the first one out whose end is not short of the wanted output. `top` is the
+/// front with its sum in the search's direction.
+static uint32_t search_segments(search_t* search, const lines_t* lines, const hyst_f32_segment_t* top)
+{
+    const hyst_f32_play_t* play = search->model->play;
+    const bool rising = search->rising;
     uint32_t low = 0;
-    uint32_t high = model->num_plays;
+    uint32_t high = search->state->front + 1;
+    uint32_t middle = high;
     while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        const float pushed = hyst_f32_pushed(envelope, model->radius[middle], search->rising);
-        if (hyst_f32_moves(pushed, search->state->memory[middle], search->rising)) {
-            low = middle + 1;
+        const hyst_f32_segment_t* segment =
+            middle == search->state->front + 1 ? top : &search->state->memory[middle - 1];
+        const float opening = (segment->rising != 0) == rising ? 0.0f : play[segment->last].opening;
+        if (probe_kink(search, lines, hyst_f32_forward(segment->level, rising) + opening,
+                       hyst_f32_forward(segment->sum[rising], rising))) {
+            high = middle - 1;
         } else {
-            high = middle;
+            low = middle;
         }
+        middle = high - (high - low) / 2;
     }
     return low;
 }
 
-/// x limited to the stretch, also where it is not a number.
-static float limit_to_stretch(const search_t* search, const float x)
+/// Narrows the stretch over a segment left in the other direction to one between two openings.
+static void search_openings(search_t* search, const lines_t* lines, const hyst_f32_segment_t* kept,
+                            uint32_t low)
 {
-    return search->rising ? hyst_f32_limit(x, search->near.input, search->far.input)
-                          : hyst_f32_limit(x, search->far.input, search->near.input);
-}
-
-/// The input at which the envelope reaches play j and starts to move it.
-static float kink(const search_t* search, const uint32_t j)
-{
-    const float radius = search->model->radius[j];
-    const float reached = hyst_f32_pushed(search->state->memory[j], radius, !search->rising);
-    if (search->model->num_knots == 0) {
-        return limit_to_stretch(search, reached);
-    }
-    const hyst_f32_knot_t* knot = &search->model->knot[search->cell];
-    const float value = search->rising ? knot->ascending : knot->descending;
-    const float slope = search->rising ? knot->ascending_slope : knot->descending_slope;
-    return limit_to_stretch(search, knot->input + (reached - value) / slope);
-}
-
-/// Narrows the stretch until no play starts to move within it, so that the output is linear there.
-static void search_kinks(search_t* search)
-{
-    uint32_t low = count_moved(search, search->near.input);
-    uint32_t high = count_moved(search, search->far.input);
+    const hyst_f32_play_t* play = search->model->play;
+    const float level = hyst_f32_forward(kept->level, search->rising);
+    const float end = hyst_f32_forward(kept->sum[search->rising], search->rising);
+    uint32_t high = kept->last;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        if (probe(search, search->cell, kink(search, middle))) {
+        const float sum = end - (play[kept->last].loading - play[middle].loading);
+        if (probe_kink(search, lines, level + play[middle].opening, sum)) {
             low = middle + 1;
         } else {
             high = middle;
         }
+    }
+}
+
+/// Narrows the stretch in its cell until the output is linear there.
+static void search_kinks(search_t* search)
+{
+    const uint32_t front = search->state->front;
+    const hyst_f32_segment_t* memory = search->state->memory;
+    const lines_t lines = lines_of(search->model, search->cell, search->rising);
+    hyst_f32_segment_t top = memory[front];
+    if ((top.rising != 0) != search->rising) {
+        top.sum[search->rising] = hyst_f32_end_of(search->model, memory, front, search->rising);
+    }
+    const uint32_t num_kept = search_segments(search, &lines, &top);
+    const hyst_f32_segment_t* kept = num_kept == front + 1 ? &top : &memory[num_kept - 1];
+    if (num_kept != 0 && (kept->rising != 0) != search->rising) {
+        search_openings(search, &lines, kept, num_kept == front + 1 ? 0 : memory[num_kept].last + 1u);
     }
 }
 
@@ -125,38 +175,52 @@ static float solve(const search_t* search)
     const float width = far.input - near.input;
     const float after = (search->wanted - near.output) / rise;
     const float before = (far.output - search->wanted) / rise;
-    return limit_to_stretch(search, after < before ? near.input + after * width : far.input - before * width);
+    const float input = after < before ? near.input + after * width : far.input - before * width;
+    return search->rising ? hyst_f32_limit(input, near.input, far.input)
+                          : hyst_f32_limit(input, far.input, near.input);
 }
 
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     const float wanted)
 {
-    const uint32_t last_cell = model->num_knots == 0 ? 0 : model->num_knots - 2;
-    hyst_f32_inverse_t result;
-    result.input = state->input;
-    result.reachable_min = look(model, state, 0, model->input_min, false);
-    result.reachable_max = look(model, state, last_cell, model->input_max, true);
-    result.clamped = !(wanted >= result.reachable_min && wanted <= result.reachable_max);
-    if (hyst_f32_is_nan(wanted)) {
-        return result;
-    }
+    hyst_f32_inverse_t result = {state->input, hyst_f32_is_nan(wanted)};
     search_t search;
-    search.wanted = hyst_f32_limit(wanted, result.reachable_min, result.reachable_max);
-    search.rising = search.wanted > state->output;
-    if (!search.rising && !(search.wanted < state->output)) {
+    search.rising = wanted > state->output;
+    if (!search.rising && !(wanted < state->output)) {
         return result;
     }
     search.model = model;
     search.state = state;
+    search.wanted = wanted;
     search.cell = state->cell;
     search.near.input = state->input;
     search.near.output = state->output;
     search.far.input = search.rising ? model->input_max : model->input_min;
-    search.far.output = search.rising ? result.reachable_max : result.reachable_min;
+    search.far.output =
+        look(model, state, search.rising ? hyst_f32_last_cell(model) : 0, search.far.input, search.rising);
+    if (search.rising ? search.far.output < wanted : search.far.output > wanted) {
+        result.clamped = true;
+        search.wanted = search.far.output;
+        if (!(search.far.output > state->output) && !(search.far.output < state->output)) {
+            return result;
+        }
+    }
     if (model->num_knots != 0) {
-        search_knots(&search);
+        search_cells(&search);
     }
     search_kinks(&search);
     result.input = solve(&search);
     return result;
+}
+
+hyst_f32_reach_t hyst_f32_reachable(const hyst_f32_model_t* model, const hyst_f32_state_t* state)
+{
+    hyst_f32_reach_t reach = {state->output, state->output};
+    if (state->input > model->input_min) {
+        reach.reachable_min = look(model, state, 0, model->input_min, false);
+    }
+    if (state->input < model->input_max) {
+        reach.reachable_max = look(model, state, hyst_f32_last_cell(model), model->input_max, true);
+    }
+    return reach;
 }

@@ -34,9 +34,11 @@ uint32_t hyst_f32_model_crc(const hyst_f32_model_t* model)
     crc = crc_of_real(crc, model->input_max);
     crc = crc_of_real(crc, model->constant);
     crc = crc_of_real(crc, model->nonhysteretic_slope);
+    crc = crc_of_real(crc, model->moment);
     for (uint32_t j = 0; j < model->num_plays; ++j) {
-        crc = crc_of_real(crc, model->radius[j]);
-        crc = crc_of_real(crc, model->weight[j]);
+        crc = crc_of_real(crc, model->play[j].opening);
+        crc = crc_of_real(crc, model->play[j].loading);
+        crc = crc_of_real(crc, model->play[j].slope);
     }
     return ~crc_of_knots(crc, model);
 }
@@ -46,7 +48,7 @@ static hyst_seal_t seal_of(const hyst_f32_model_t* model)
     const hyst_seal_t seal = {.scalar = HYST_SCALAR_F32,
                               .num_plays = model->num_plays,
                               .model_crc = hyst_f32_model_crc(model),
-                              .payload_words = model->num_plays + 1};
+                              .payload_words = HYST_F32_SNAPSHOT_LENGTH(model->num_plays)};
     return seal;
 }
 

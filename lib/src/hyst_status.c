@@ -41,6 +41,8 @@ const char* hyst_status_text(const hyst_status_t status)
         return "the snapshot's checksum is wrong: it is torn or damaged";
     case HYST_STATUS_CYCLES:
         return "the number of homing cycles is 0 or above HYST_MAX_HOMING_CYCLES";
+    case HYST_STATUS_LOADING:
+        return "the loading curve or the moment does not follow from the radii and weights";
     }
     return "unknown status";
 }

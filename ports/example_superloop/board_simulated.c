@@ -2,7 +2,7 @@
 #include "board.h"
 
 static hyst_f32_state_t plant;
-static float memory[ACTUATOR_NUM_PLAYS];
+static hyst_f32_segment_t memory[ACTUATOR_NUM_PLAYS];
 
 /// The actuator in place of a real one: the model itself, but with a past that the firmware does not know.
 static void put_actuator_into_unknown_state(void)

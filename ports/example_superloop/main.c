@@ -16,7 +16,7 @@ enum {
     SNAPSHOT = HYST_F32_SEALED_WORDS(ACTUATOR_NUM_PLAYS)
 };
 
-static float memory[ACTUATOR_NUM_PLAYS];
+static hyst_f32_segment_t memory[ACTUATOR_NUM_PLAYS];
 static hyst_f32_state_t state;
 static hyst_f32_homing_t homing;
 static hyst_word_t snapshot[SNAPSHOT];
@@ -29,7 +29,7 @@ static float wanted_at(const uint32_t sample)
 {
     static float low, high;
     if (sample == 0) {
-        const hyst_f32_inverse_t reach = hyst_f32_inverse(&actuator_model, &state, state.output);
+        const hyst_f32_reach_t reach = hyst_f32_reachable(&actuator_model, &state);
         low = reach.reachable_min;
         high = reach.reachable_max;
     }

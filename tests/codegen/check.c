@@ -8,7 +8,7 @@
 
 enum { NUM_SAMPLES = 4000 };
 
-static float memory[SUBJECT_NUM_PLAYS];
+static hyst_f32_segment_t memory[SUBJECT_NUM_PLAYS];
 static hyst_f32_state_t state;
 
 static float sample(unsigned i)

@@ -46,7 +46,7 @@ test "$num_compilers" -gt 0
 
 # A header made for another layout must not compile.
 cp -R "$include" "$scratch/include"
-sed 's/^#define HYST_MODEL_FORMAT 1$/#define HYST_MODEL_FORMAT 2/' "$include/hyst/hyst.h" \
+sed 's/^#define HYST_MODEL_FORMAT [0-9]*$/#define HYST_MODEL_FORMAT 9999/' "$include/hyst/hyst.h" \
     > "$scratch/include/hyst/hyst.h"
 printf '#include "subject.h"\n' > "$scratch/other.c"
 if "${CC:-cc}" -std=c11 -I"$scratch/include" -I"$scratch" -c "$scratch/other.c" -o "$scratch/other.o" \

@@ -7,12 +7,12 @@
 
 #define HAND_NAME               "hand"
 #define HAND_NUM_PLAYS          2
-#define HAND_RAM_BYTES          (sizeof(hyst_f32_state_t) + sizeof(hand_radius))
-#define HAND_FLASH_BYTES        (sizeof(hand_model) + sizeof(hand_radius) + sizeof(hand_weight) + sizeof(hand_knot))
+#define HAND_RAM_BYTES          (sizeof(hyst_f32_state_t) + HAND_NUM_PLAYS * sizeof(hyst_f32_segment_t))
+#define HAND_FLASH_BYTES        (sizeof(hand_model) + sizeof(hand_play) + sizeof(hand_knot))
 #define HAND_GOLDEN_FLASH_BYTES (sizeof(hand_golden) + 4 * sizeof(hand_input))
 
-static const float hand_radius[HAND_NUM_PLAYS] = {0.25F, 1.0F};
-static const float hand_weight[HAND_NUM_PLAYS] = {1.0F, 2.0F};
+/// Radii 0.25 and 1, weights 1 and 2.
+static const hyst_f32_play_t hand_play[HAND_NUM_PLAYS] = {{0.5F, 0.0F, 1.0F}, {2.0F, 1.5F, 3.0F}};
 static const hyst_f32_knot_t hand_knot[3] = {
     {0.0F, 0.0F, 0.5F, 0.5F, 1.25F, 0.0F, 0.0F},
     {2.0F, 1.0F, 1.5F, 3.0F, 0.5F, 0.0F, 0.5F},
@@ -25,8 +25,8 @@ static const hyst_f32_model_t hand_model = {
     .input_min = 0.0F,
     .input_max = 4.0F,
     .constant = -1.0F,
-    .radius = hand_radius,
-    .weight = hand_weight,
+    .moment = 2.25F,
+    .play = hand_play,
     .knot = hand_knot,
 };
 

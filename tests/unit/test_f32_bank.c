@@ -33,8 +33,6 @@ void tearDown(void)
 static void assert_same_inverse(const hyst_f32_inverse_t* expected, const hyst_f32_inverse_t* actual)
 {
     TEST_ASSERT_EQUAL_HEX32(f32_bits(expected->input), f32_bits(actual->input));
-    TEST_ASSERT_EQUAL_HEX32(f32_bits(expected->reachable_min), f32_bits(actual->reachable_min));
-    TEST_ASSERT_EQUAL_HEX32(f32_bits(expected->reachable_max), f32_bits(actual->reachable_max));
     TEST_ASSERT_EQUAL(expected->clamped, actual->clamped);
 }
 

@@ -94,12 +94,13 @@ static double weigh_moving_plays(f32_model_t* model)
     const double low = m->num_knots == 0 ? (double)m->input_min : (double)m->knot[0].descending;
     double total = 0.0;
     for (uint32_t j = 0; j < m->num_plays; ++j) {
-        if (2.0 * (double)m->radius[j] >= high - low) {
+        if (2.0 * (double)model->radius[j] >= high - low) {
             model->weight[j] = 0.0F;
             model->exact.weight[j] = 0.0;
         }
         total += (double)model->weight[j];
     }
+    f32_update_plays(model);
     return total;
 }
 

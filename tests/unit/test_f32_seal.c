@@ -68,11 +68,13 @@ static void assert_refused(hyst_status_t expected, const hyst_f32_model_t* model
 {
     (void)hyst_f32_reset(&made.model, &state, HYST_START_POSITIVE_SATURATION, 1.0F);
     const hyst_f32_state_t before = state;
-    float saved[2][NUM_PLAYS + 1];
-    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(&made.model, &state, saved[0], NUM_PLAYS + 1));
+    float saved[2][HYST_F32_SNAPSHOT_LENGTH(NUM_PLAYS)];
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK,
+                      hyst_f32_save(&made.model, &state, saved[0], sizeof saved[0] / sizeof(float)));
     TEST_ASSERT_EQUAL(expected, hyst_f32_unseal(model, &state, snapshot, length));
     TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
-    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(&made.model, &state, saved[1], NUM_PLAYS + 1));
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK,
+                      hyst_f32_save(&made.model, &state, saved[1], sizeof saved[1] / sizeof(float)));
     TEST_ASSERT_EQUAL_MEMORY(saved[0], saved[1], sizeof saved[0]);
 }
 
@@ -133,16 +135,19 @@ static void test_a_snapshot_of_another_model_is_refused(void)
     other.nonhysteretic_slope = 1.0F;
     assert_refused(HYST_STATUS_SNAPSHOT_MODEL, &other, WORDS);
     other = made.model;
+    other.moment += 1.0F;
+    assert_refused(HYST_STATUS_SNAPSHOT_MODEL, &other, WORDS);
+    other = made.model;
     other.num_plays = NUM_PLAYS - 1;
     assert_refused(HYST_STATUS_SNAPSHOT_MODEL, &other, WORDS);
     const uint32_t crc = hyst_f32_model_crc(&made.model);
     for (int j = 0; j < NUM_PLAYS; ++j) {
-        made.radius[j] += 0.125F;
-        TEST_ASSERT_TRUE(crc != hyst_f32_model_crc(&made.model));
-        made.radius[j] -= 0.125F;
-        made.weight[j] += 0.125F;
-        TEST_ASSERT_TRUE(crc != hyst_f32_model_crc(&made.model));
-        made.weight[j] -= 0.125F;
+        float* numbers[] = {&made.play[j].opening, &made.play[j].loading, &made.play[j].slope};
+        for (int i = 0; i < 3; ++i) {
+            *numbers[i] += 0.125F;
+            TEST_ASSERT_TRUE(crc != hyst_f32_model_crc(&made.model));
+            *numbers[i] -= 0.125F;
+        }
     }
     TEST_ASSERT_EQUAL_HEX32(crc, hyst_f32_model_crc(&made.model));
 }

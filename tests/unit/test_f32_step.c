@@ -82,9 +82,9 @@ static void test_an_unchanged_input_changes_nothing(void)
     f32_model_t made = single_play(1.0F, 2.0F, 0.5F);
     hyst_f32_state_t state = f32_state(&made);
     const float output = hyst_f32_step(&made.model, &state, 0.3F);
-    const float memory = made.memory[0];
+    const hyst_f32_segment_t memory = made.memory[0];
     assert_step(output, &made, &state, 0.3F);
-    TEST_ASSERT_EQUAL_HEX32(f32_bits(memory), f32_bits(made.memory[0]));
+    TEST_ASSERT_EQUAL_MEMORY(&memory, &made.memory[0], sizeof memory);
     f32_free(&made);
 }
 

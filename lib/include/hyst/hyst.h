@@ -9,7 +9,7 @@
 /// it to a few plays and emits a C header; this library runs it:
 ///
 ///   #include "vo2_film.h"                           // generated: vo2_film_model, VO2_FILM_NUM_PLAYS
-///   static float memory[VO2_FILM_NUM_PLAYS];
+///   static hyst_f32_segment_t memory[VO2_FILM_NUM_PLAYS];
 ///   static hyst_f32_state_t state;
 ///   ...
 ///   if (hyst_f32_init(&vo2_film_model, &state, memory, VO2_FILM_NUM_PLAYS) != HYST_STATUS_OK) { stop(); }
@@ -41,7 +41,7 @@
 #define HYST_VERSION_PATCH 0
 
 /// The layout of generated models. A header made for another layout refuses to compile.
-#define HYST_MODEL_FORMAT 1
+#define HYST_MODEL_FORMAT 2
 
 /// Most play operators in a model: keeps every count and index in 16 bits.
 #define HYST_MAX_PLAYS 4096
@@ -69,7 +69,7 @@ typedef enum {
     HYST_STATUS_MEMORY_LENGTH = 4, ///< the memory given is shorter than num_plays
     HYST_STATUS_INPUT_RANGE = 5,   ///< input_min < input_max does not hold, or one or the width is not finite
     HYST_STATUS_RADIUS = 6,        ///< radii are not finite, not >= 0, or decrease
-    HYST_STATUS_WEIGHT = 7,        ///< a weight is not finite or not >= 0
+    HYST_STATUS_WEIGHT = 7,        ///< a weight is not finite or not >= 0, or their sums decrease
     HYST_STATUS_NONHYSTERETIC = 8, ///< the non-hysteretic part is not finite, decreases, or its slopes
                                    ///< contradict its knots
     HYST_STATUS_KNOTS = 9,     ///< the table's inputs do not strictly increase over [input_min, input_max]
@@ -83,6 +83,7 @@ typedef enum {
     HYST_STATUS_SNAPSHOT_MODEL = 16,  ///< a snapshot of another model
     HYST_STATUS_SNAPSHOT_TORN = 17,   ///< a snapshot's checksum is wrong: not written to its end, or damaged
     HYST_STATUS_CYCLES = 18,          ///< the number of homing cycles is 0 or above HYST_MAX_HOMING_CYCLES
+    HYST_STATUS_LOADING = 19,         ///< the loading curve or the moment does not follow from radii and weights
 } hyst_status_t;
 
 /// Which past a reset puts the memory into.

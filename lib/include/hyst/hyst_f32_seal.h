@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 /// Words of a sealed snapshot.
-#define HYST_F32_SEALED_WORDS(num_plays) HYST_SNAPSHOT_WORDS((num_plays) + 1)
+#define HYST_F32_SEALED_WORDS(num_plays) HYST_SNAPSHOT_WORDS(HYST_F32_SNAPSHOT_LENGTH(num_plays))
 
 /// The CRC-32 of a model's numbers, which tells models apart: of format, counts, range, constant, slope,
 /// radii, weights and knots, not of addresses. For a model that hyst_f32_init has accepted. Time O(num_plays
