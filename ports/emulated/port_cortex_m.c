@@ -6,6 +6,7 @@
 #define SYSTICK_RELOAD                    (*(volatile uint32_t*)0xE000E014u)
 #define SYSTICK_CURRENT                   (*(volatile uint32_t*)0xE000E018u)
 #define SYSTICK_ENABLE_ON_PROCESSOR_CLOCK 5u
+#define SYSTICK_COUNTED_OUT               0x00010000u
 #define SYSTICK_MASK                      0x00FFFFFFu
 
 /// With -icount shift=0 QEMU executes one instruction per nanosecond.
@@ -26,5 +27,8 @@ void port_count_start(void)
 uint32_t port_count_instructions(void)
 {
     const uint64_t ticks = (0u - SYSTICK_CURRENT) & SYSTICK_MASK;
+    if ((SYSTICK_CONTROL & SYSTICK_COUNTED_OUT) != 0) {
+        return UINT32_MAX;
+    }
     return (uint32_t)(ticks * PICOSECONDS_PER_TICK / PICOSECONDS_PER_INSTRUCTION);
 }

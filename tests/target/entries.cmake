@@ -41,3 +41,9 @@ foreach(core_line ${core_lines})
     hyst_target_test(${core} property target/unity.sh ${core} property)
   endif()
 endforeach()
+
+# What stands in the README is what is measured.
+add_test(NAME target.cost_table
+  COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/target/cost_table.sh --hyst $<TARGET_FILE:hyst_command>
+  --check ${PROJECT_SOURCE_DIR}/README.md)
+set_tests_properties(target.cost_table PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
