@@ -54,6 +54,7 @@ static hyst_f32_segment_t segment_at(const hyst_f32_model_t* model, const float*
     const float code = snapshot[SEGMENTS + 2 * index + 1];
     const uint32_t count = count_of(hyst_f32_magnitude(code), model->num_plays);
     const hyst_f32_segment_t segment = {.level = snapshot[SEGMENTS + 2 * index],
+                                        .sum = {0.0f, 0.0f},
                                         .last = count == 0 ? UINT16_MAX : (uint16_t)(count - 1),
                                         .rising = code > 0.0f};
     return segment;
