@@ -163,14 +163,14 @@ static void count_worst(const SCALAR(model_t) * model)
         const float part = (float)i / (float)(NUM_LEVELS - 1);
         raise(&forward, count_one_step(model, input_at(model, part)));
         put_back(model->num_plays);
-        const SCALAR(inverse_t) reach = SCALAR(inverse)(model, &state, state.output);
+        const reach_t reach = reach_of(model, &state);
         raise(&inverse,
               count_one_inverse(model, sample_between(reach.reachable_min, reach.reachable_max, part)));
     }
     uint32_t seed = 3;
     for (uint32_t i = 0; i < NUM_JUMPS; ++i) {
         keep(model->num_plays);
-        const SCALAR(inverse_t) reach = SCALAR(inverse)(model, &state, state.output);
+        const reach_t reach = reach_of(model, &state);
         raise(&inverse, count_one_inverse(model, sample_between(reach.reachable_min, reach.reachable_max,
                                                                 signal_random(&seed))));
         raise(&forward, count_one_step(model, input_at(model, signal_random(&seed))));
@@ -189,7 +189,7 @@ static void measure_stack(const SCALAR(model_t) * model)
     for (uint32_t i = 0; i < NUM_LEVELS + 2; ++i) {
         const float part = (float)i / (float)(NUM_LEVELS - 1) - 1.0f / (float)(NUM_LEVELS - 1);
         put_back(model->num_plays);
-        const SCALAR(inverse_t) reach = SCALAR(inverse)(model, &state, state.output);
+        const reach_t reach = reach_of(model, &state);
         const sample_t output = sample_between(reach.reachable_min, reach.reachable_max, part);
         stack_paint();
         sink = SCALAR(inverse)(model, &state, output).input;

@@ -16,11 +16,11 @@ int main(void)
 #endif
 #if PARTS >= 3
     static memory_t memory[2];
-    static memory_t saved[3];
+    static saved_t saved[2];
     sample = SCALAR(reset)(model, &state, HYST_START_DEMAGNETISED, sample);
     if (SCALAR(init)(model, &state, memory, 2) != HYST_STATUS_OK ||
-        SCALAR(save)(model, &state, saved, 3) != HYST_STATUS_OK ||
-        SCALAR(restore)(model, &state, saved, 3) != HYST_STATUS_OK) {
+        SCALAR(save)(model, &state, saved, 2) != HYST_STATUS_OK ||
+        SCALAR(restore)(model, &state, saved, 2) != HYST_STATUS_OK) {
         return 1;
     }
 #endif
