@@ -189,6 +189,6 @@ hyst_status_t hyst_f32_init(const hyst_f32_model_t* model, hyst_f32_state_t* sta
     state->memory = memory;
     state->invalid_inputs = 0;
     state->clamped_inputs = 0;
-    hyst_f32_saturate_negative(model, state);
+    hyst_f32_saturate(model, state, false);
     return HYST_STATUS_OK;
 }

@@ -43,14 +43,8 @@ static inline float hyst_f32_limit(const float x, const float low, const float h
     return x < high ? x : high;
 }
 
-/// A curve in the cell that begins at `knot`. Slopes are rounded so that it stays below the next knot's value
-/// (init checks it); the last knot belongs to the last cell.
-static inline float hyst_f32_line(const hyst_f32_knot_t* knot, const float v, const float value,
-                                  const float slope, const float next_value)
-{
-    return v < knot[1].input ? value + slope * (v - knot->input) : next_value;
-}
-
+/// An envelope at v. Slopes are rounded so that no line ends above the next knot's value (init checks it):
+/// the envelope does not fall from one cell to the next.
 static inline float hyst_f32_envelope(const hyst_f32_model_t* model, const uint32_t cell, const float v,
                                       const bool rising)
 {
@@ -58,19 +52,18 @@ static inline float hyst_f32_envelope(const hyst_f32_model_t* model, const uint3
         return v;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    return rising ? hyst_f32_line(knot, v, knot->ascending, knot->ascending_slope, knot[1].ascending)
-                  : hyst_f32_line(knot, v, knot->descending, knot->descending_slope, knot[1].descending);
+    return rising ? knot->ascending + knot->ascending_slope * (v - knot->input)
+                  : knot->descending + knot->descending_slope * (v - knot->input);
 }
 
-/// D and the constant.
+/// The constant and D at v, likewise.
 static inline float hyst_f32_offset(const hyst_f32_model_t* model, const uint32_t cell, const float v)
 {
     if (model->num_knots == 0) {
         return model->constant + model->nonhysteretic_slope * v;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    return model->constant +
-           hyst_f32_line(knot, v, knot->nonhysteretic, knot->nonhysteretic_slope, knot[1].nonhysteretic);
+    return model->constant + (knot->nonhysteretic + knot->nonhysteretic_slope * (v - knot->input));
 }
 
 /// Where a play goes that `envelope` pushes.
@@ -112,7 +105,7 @@ static inline uint32_t hyst_f32_last_cell(const hyst_f32_model_t* model)
 /// are.
 void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
 
-/// Negative saturation at input_min.
-void hyst_f32_saturate_negative(const hyst_f32_model_t* model, hyst_f32_state_t* state);
+/// Positive saturation at input_max, or negative at input_min.
+void hyst_f32_saturate(const hyst_f32_model_t* model, hyst_f32_state_t* state, bool rising);
 
 #endif

@@ -1,126 +1,131 @@
 #include "hyst_f32_segments.h"
 
-/// An input within reach of one monotone move, and the output it would give.
+/// An input within reach of one monotone move and the output it would give, both in the direction of the
+/// move.
 typedef struct {
     float input;
     float output;
 } point_t;
 
 /// The stretch in which the wanted output is looked for. Invariant: `near` falls short of it, `far` does not.
+/// Inputs, outputs and envelopes are in the direction of the move, so that all increase.
 typedef struct {
     const hyst_f32_model_t* model;
     const hyst_f32_state_t* state;
-    float wanted;
     bool rising;
-    uint32_t cell; ///< the table's cell that holds both ends, after search_cells
-    point_t near;  ///< the end on the side of the present input
+    float sign;
+    float wanted;
+    point_t near; ///< the end on the side of the present input
     point_t far;
 } search_t;
 
-/// The curves of a cell as lines through its first knot.
+/// The curves of a cell as lines through one point.
 typedef struct {
     float input, envelope, envelope_slope, offset, offset_slope;
 } lines_t;
 
-static lines_t lines_of(const hyst_f32_model_t* model, const uint32_t cell, const bool rising)
+static lines_t lines_of(const search_t* search, const uint32_t cell)
 {
+    const hyst_f32_model_t* model = search->model;
+    const float sign = search->sign;
     if (model->num_knots == 0) {
-        const lines_t identity = {0.0f, 0.0f, 1.0f, model->constant, model->nonhysteretic_slope};
+        const lines_t identity = {0.0f, 0.0f, 1.0f, sign * model->constant, model->nonhysteretic_slope};
         return identity;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    const lines_t lines = {knot->input, rising ? knot->ascending : knot->descending,
-                           rising ? knot->ascending_slope : knot->descending_slope,
-                           model->constant + knot->nonhysteretic, knot->nonhysteretic_slope};
+    const lines_t lines = {sign * knot->input, sign * (search->rising ? knot->ascending : knot->descending),
+                           search->rising ? knot->ascending_slope : knot->descending_slope,
+                           sign * (model->constant + knot->nonhysteretic), knot->nonhysteretic_slope};
     return lines;
 }
 
-/// The output after `input`, which lies in `cell`: the very arithmetic of a step, without storing.
-static float look(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const uint32_t cell,
-                  const float input, const bool rising)
+/// The very arithmetic of a step to `input`, which lies in `cell`, without storing.
+static point_t look(const search_t* search, const uint32_t cell, const float input)
 {
-    const float envelope = hyst_f32_envelope(model, cell, input, rising);
+    const hyst_f32_model_t* model = search->model;
+    const float ahead = search->sign * hyst_f32_envelope(model, cell, input, search->rising);
     hyst_f32_front_t front;
-    float plays = hyst_f32_forward(state->plays, rising);
-    if (hyst_f32_meet(model, state, rising, envelope, &front)) {
+    float plays = search->sign * search->state->plays;
+    if (hyst_f32_meet(model, search->state, search->rising, ahead, &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
-    return hyst_f32_offset(model, cell, input) + hyst_f32_forward(plays, rising);
+    const point_t point = {search->sign * input, search->sign * hyst_f32_offset(model, cell, input) + plays};
+    return point;
 }
 
 /// Narrows the stretch to one side of the point; true when it falls short.
 static bool narrow(search_t* search, const point_t point)
 {
-    const bool is_short = search->rising ? point.output < search->wanted : point.output > search->wanted;
-    point_t* end = is_short ? &search->near : &search->far;
-    *end = point;
-    return is_short;
+    if (point.output < search->wanted) {
+        search->near = point;
+        return true;
+    }
+    search->far = point;
+    return false;
 }
 
-static bool probe(search_t* search, const uint32_t cell, const float input)
+/// The m-th knot ahead of the present input, or the end of the range of a model without a table.
+static point_t look_at_knot(const search_t* search, const uint32_t m)
 {
-    const point_t point = {input, look(search->model, search->state, cell, input, search->rising)};
-    return narrow(search, point);
-}
-
-/// Narrows the stretch to one cell. Counts knots from the present input on, doubling the stride while they
-/// fall short (a tracked output is mostly near by), then halves: at most 2 log2(num_knots) probes.
-static void search_cells(search_t* search)
-{
+    const hyst_f32_model_t* model = search->model;
+    if (model->num_knots == 0) {
+        return look(search, 0, search->rising ? model->input_max : model->input_min);
+    }
     const uint32_t present = search->state->cell;
-    uint32_t low = 0;
-    uint32_t high = search->rising ? search->model->num_knots - 1 - present : present + 1;
-    uint32_t stride = 1;
+    const uint32_t knot = search->rising ? present + m : present + 1 - m;
+    const uint32_t last_cell = hyst_f32_last_cell(model);
+    return look(search, knot < last_cell ? knot : last_cell, model->knot[knot].input);
+}
+
+/// Narrows the stretch, whose ends are the low-th and high-th knot ahead, to one cell: by interpolating, and
+/// where that does not halve it, by halving. Returns `low`.
+static uint32_t search_cells(search_t* search, uint32_t low, uint32_t high)
+{
+    bool halve = false;
     while (high - low > 1) {
-        const uint32_t half = (high - low) / 2;
-        const uint32_t middle = low + (stride < half ? stride : half);
-        const uint32_t knot = search->rising ? present + middle : present + 1 - middle;
-        if (probe(search, knot, search->model->knot[knot].input)) {
+        const uint32_t width = high - low;
+        const float part =
+            (search->wanted - search->near.output) / (search->far.output - search->near.output);
+        const uint32_t ahead = halve ? width / 2 : (uint32_t)(part * (float)width);
+        const uint32_t middle = low + (ahead < 1 ? 1 : ahead < width ? ahead : width - 1);
+        if (narrow(search, look_at_knot(search, middle))) {
             low = middle;
-            stride *= 2;
         } else {
             high = middle;
         }
+        halve = !halve && high - low > width / 2;
     }
-    search->cell = search->rising ? present + low : present - low;
+    return low;
 }
 
-/// Narrows the stretch by the point in the cell where the envelope reaches `ahead` and the plays' part `sum`,
-/// both in the direction of the move; true when the wanted output lies beyond.
+/// Narrows the stretch by the point in the cell where the envelope is at `ahead` and the plays' part is
+/// `sum`; true when it falls short.
 static bool probe_kink(search_t* search, const lines_t* lines, const float ahead, const float sum)
 {
-    const bool rising = search->rising;
-    const float along = (hyst_f32_forward(ahead, rising) - lines->envelope) / lines->envelope_slope;
-    const float input = lines->input + along;
-    const float near = hyst_f32_forward(search->near.input, rising);
-    const float far = hyst_f32_forward(search->far.input, rising);
-    // A flat envelope gives no number where all of the cell is on one side.
-    if (!(hyst_f32_forward(input, rising) > near)) {
+    const float along = (ahead - lines->envelope) / lines->envelope_slope;
+    const point_t point = {lines->input + along, lines->offset + lines->offset_slope * along + sum};
+    // Outside the stretch it is known. A flat envelope gives no number where all of the cell is on one side.
+    if (!(point.input > search->near.input)) {
         return true;
     }
-    if (!(hyst_f32_forward(input, rising) < far)) {
-        return false;
-    }
-    const point_t point = {input, lines->offset + lines->offset_slope * (input - lines->input) +
-                                      hyst_f32_forward(sum, rising)};
-    return narrow(search, point);
+    return point.input < search->far.input && narrow(search, point);
 }
 
-/// How many segments are kept: the first one out whose end is not short of the wanted output. `top` is the
-/// front with its sum in the search's direction.
-static uint32_t search_segments(search_t* search, const lines_t* lines, const hyst_f32_segment_t* top)
+/// How many segments are kept: the first one out whose end is not short of the wanted output. `end` is the
+/// front's.
+static uint32_t search_segments(search_t* search, const lines_t* lines, const float end)
 {
-    const hyst_f32_play_t* play = search->model->play;
-    const bool rising = search->rising;
+    const hyst_f32_segment_t* memory = search->state->memory;
+    const uint32_t front = search->state->front;
     uint32_t low = 0;
-    uint32_t high = search->state->front + 1;
+    uint32_t high = front + 1;
     uint32_t middle = high;
     while (low < high) {
-        const hyst_f32_segment_t* segment =
-            middle == search->state->front + 1 ? top : &search->state->memory[middle - 1];
-        const float opening = (segment->rising != 0) == rising ? 0.0f : play[segment->last].opening;
-        if (probe_kink(search, lines, hyst_f32_forward(segment->level, rising) + opening,
-                       hyst_f32_forward(segment->sum[rising], rising))) {
+        const hyst_f32_segment_t* segment = &memory[middle - 1];
+        const float ahead = hyst_f32_is_along(segment, search->rising)
+                                ? segment->level
+                                : search->model->play[segment->last].opening - segment->level;
+        if (probe_kink(search, lines, ahead, middle == front + 1 ? end : segment->sum[search->rising])) {
             high = middle - 1;
         } else {
             low = middle;
@@ -130,40 +135,43 @@ static uint32_t search_segments(search_t* search, const lines_t* lines, const hy
     return low;
 }
 
-/// Narrows the stretch over a segment left in the other direction to one between two openings.
+/// Narrows the stretch over a segment left in the other direction to one between two openings, low ... its
+/// last.
 static void search_openings(search_t* search, const lines_t* lines, const hyst_f32_segment_t* kept,
-                            uint32_t low)
+                            const float end, uint32_t low)
 {
     const hyst_f32_play_t* play = search->model->play;
-    const float level = hyst_f32_forward(kept->level, search->rising);
-    const float end = hyst_f32_forward(kept->sum[search->rising], search->rising);
     uint32_t high = kept->last;
+    uint32_t middle = low;
     while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
         const float sum = end - (play[kept->last].loading - play[middle].loading);
-        if (probe_kink(search, lines, level + play[middle].opening, sum)) {
+        if (probe_kink(search, lines, play[middle].opening - kept->level, sum)) {
             low = middle + 1;
         } else {
             high = middle;
         }
+        middle = low + (high - low) / 2;
     }
 }
 
 /// Narrows the stretch in its cell until the output is linear there.
-static void search_kinks(search_t* search)
+static void search_kinks(search_t* search, const uint32_t cell)
 {
     const uint32_t front = search->state->front;
     const hyst_f32_segment_t* memory = search->state->memory;
-    const lines_t lines = lines_of(search->model, search->cell, search->rising);
-    hyst_f32_segment_t top = memory[front];
-    if ((top.rising != 0) != search->rising) {
-        top.sum[search->rising] = hyst_f32_end_of(search->model, memory, front, search->rising);
+    const lines_t lines = lines_of(search, cell);
+    float end = memory[front].sum[search->rising];
+    if (!hyst_f32_is_along(&memory[front], search->rising)) {
+        end = hyst_f32_end_of(search->model, memory, front, search->rising);
     }
-    const uint32_t num_kept = search_segments(search, &lines, &top);
-    const hyst_f32_segment_t* kept = num_kept == front + 1 ? &top : &memory[num_kept - 1];
-    if (num_kept != 0 && (kept->rising != 0) != search->rising) {
-        search_openings(search, &lines, kept, num_kept == front + 1 ? 0 : memory[num_kept].last + 1u);
+    const uint32_t num_kept = search_segments(search, &lines, end);
+    if (num_kept == 0 || hyst_f32_is_along(&memory[num_kept - 1], search->rising)) {
+        return;
     }
+    const bool is_front = num_kept == front + 1;
+    search_openings(search, &lines, &memory[num_kept - 1],
+                    is_front ? end : memory[num_kept - 1].sum[search->rising],
+                    is_front ? 0 : memory[num_kept].last + 1u);
 }
 
 /// Solves the one linear equation, from the end that is closer. The ends' outputs differ: one falls short.
@@ -175,52 +183,85 @@ static float solve(const search_t* search)
     const float width = far.input - near.input;
     const float after = (search->wanted - near.output) / rise;
     const float before = (far.output - search->wanted) / rise;
-    const float input = after < before ? near.input + after * width : far.input - before * width;
-    return search->rising ? hyst_f32_limit(input, near.input, far.input)
-                          : hyst_f32_limit(input, far.input, near.input);
+    return hyst_f32_limit(after < before ? near.input + after * width : far.input - before * width,
+                          near.input, far.input);
+}
+
+/// Solves the line that the present point lies on; false where the answer leaves its cell or its stretch.
+static bool solve_here(const search_t* search, float* input)
+{
+    const hyst_f32_play_t* play = search->model->play;
+    const hyst_f32_segment_t* top = &search->state->memory[search->state->front];
+    const lines_t lines = lines_of(search, search->state->cell);
+    const float present = search->near.input - lines.input;
+    const float ahead = lines.envelope + lines.envelope_slope * present;
+    float slope = lines.offset_slope;
+    float limit; // of the envelope
+    if (!hyst_f32_is_along(top, search->rising)) {
+        limit = play[0].opening - top->level;
+    } else if (ahead < top->level) {
+        limit = top->level;
+    } else {
+        slope += play[top->last].slope * lines.envelope_slope;
+        limit = search->state->front == 0                    ? FLT_MAX
+                : hyst_f32_is_along(top - 1, search->rising) ? top[-1].level
+                                                             : play[top->last + 1].opening - top[-1].level;
+    }
+    const float step = (search->wanted - search->near.output) / slope;
+    *input = search->near.input + step;
+    return *input > search->near.input && *input < search->far.input &&
+           ahead + lines.envelope_slope * step < limit;
+}
+
+/// The wanted output's input, in the direction of the move; wanted lies ahead of the present output. *clamped
+/// is set where it is out of reach.
+static float find(search_t* search, bool* clamped)
+{
+    const hyst_f32_model_t* model = search->model;
+    const uint32_t present = search->state->cell;
+    uint32_t num_ahead = 1;
+    search->far.input = search->sign * (search->rising ? model->input_max : model->input_min);
+    if (model->num_knots != 0) {
+        num_ahead = search->rising ? model->num_knots - 1 - present : present + 1;
+        search->far.input = search->sign * model->knot[search->rising ? present + 1 : present].input;
+    }
+    float input;
+    if (solve_here(search, &input)) {
+        return input;
+    }
+    const point_t here = search->near;
+    uint32_t low = 0;
+    if (narrow(search, look_at_knot(search, 1))) {
+        low = 1;
+        const point_t end = num_ahead == 1 ? search->near : look_at_knot(search, num_ahead);
+        search->far = end;
+        if (end.output < search->wanted) {
+            *clamped = true;
+            search->wanted = end.output;
+            search->near = here;
+            low = 0;
+            if (!(here.output < end.output)) {
+                return here.input;
+            }
+        }
+        low = search_cells(search, low, num_ahead);
+    }
+    search_kinks(search, search->rising ? present + low : present - low);
+    return solve(search);
 }
 
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     const float wanted)
 {
     hyst_f32_inverse_t result = {state->input, hyst_f32_is_nan(wanted)};
-    search_t search;
-    search.rising = wanted > state->output;
-    if (!search.rising && !(wanted < state->output)) {
-        return result;
+    const bool rising = wanted > state->output;
+    if (rising || wanted < state->output) {
+        const float sign = hyst_f32_sign(rising);
+        search_t search = {
+            .model = model, .state = state, .rising = rising, .sign = sign, .wanted = sign * wanted};
+        search.near.input = sign * state->input;
+        search.near.output = sign * state->output;
+        result.input = sign * find(&search, &result.clamped);
     }
-    search.model = model;
-    search.state = state;
-    search.wanted = wanted;
-    search.cell = state->cell;
-    search.near.input = state->input;
-    search.near.output = state->output;
-    search.far.input = search.rising ? model->input_max : model->input_min;
-    search.far.output =
-        look(model, state, search.rising ? hyst_f32_last_cell(model) : 0, search.far.input, search.rising);
-    if (search.rising ? search.far.output < wanted : search.far.output > wanted) {
-        result.clamped = true;
-        search.wanted = search.far.output;
-        if (!(search.far.output > state->output) && !(search.far.output < state->output)) {
-            return result;
-        }
-    }
-    if (model->num_knots != 0) {
-        search_cells(&search);
-    }
-    search_kinks(&search);
-    result.input = solve(&search);
     return result;
-}
-
-hyst_f32_reach_t hyst_f32_reachable(const hyst_f32_model_t* model, const hyst_f32_state_t* state)
-{
-    hyst_f32_reach_t reach = {state->output, state->output};
-    if (state->input > model->input_min) {
-        reach.reachable_min = look(model, state, 0, model->input_min, false);
-    }
-    if (state->input < model->input_max) {
-        reach.reachable_max = look(model, state, hyst_f32_last_cell(model), model->input_max, true);
-    }
-    return reach;
 }

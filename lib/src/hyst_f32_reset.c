@@ -105,31 +105,19 @@ static void demagnetise(const hyst_f32_model_t* model, hyst_f32_state_t* state)
     hyst_f32_place(model, state, middle);
 }
 
-static void saturate_positive(const hyst_f32_model_t* model, hyst_f32_state_t* state)
-{
-    hyst_f32_segment_t* outermost = state->memory;
-    outermost->level = hyst_f32_envelope(model, hyst_f32_last_cell(model), model->input_max, true);
-    outermost->last = (uint16_t)(model->num_plays - 1);
-    outermost->rising = 1;
-    hyst_f32_sum_up(model, state->memory, 0);
-    state->front = 0;
-    state->plays = outermost->sum[1];
-    hyst_f32_place(model, state, model->input_max);
-}
-
 float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, const hyst_start_t start,
                      const float input)
 {
     switch (start) {
     case HYST_START_POSITIVE_SATURATION:
-        saturate_positive(model, state);
+        hyst_f32_saturate(model, state, true);
         break;
     case HYST_START_DEMAGNETISED:
         demagnetise(model, state);
         break;
     case HYST_START_NEGATIVE_SATURATION:
     default:
-        hyst_f32_saturate_negative(model, state);
+        hyst_f32_saturate(model, state, false);
         break;
     }
     return hyst_f32_step(model, state, hyst_f32_is_nan(input) ? hyst_f32_middle(model) : input);

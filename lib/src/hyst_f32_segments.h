@@ -10,7 +10,7 @@
 ///   opening_{j+1}. RAM, a stack of segments, segment[0] outermost, segment[depth - 1] the front
 ///   (hyst_f32_segment_t, 16 bytes). Segment i holds plays (last_{i+1}, last_i], all left by one extreme
 ///   `level` of the envelope:
-///     w_j = level - r_j when it was left by a rising input, level + r_j by a falling one.
+///     w_j = level - r_j when it was left by a rising input, -(level - r_j) by a falling one.
 ///   Every segment holds a play, so last_0 = N - 1 > last_1 > ... and N segments are enough.
 ///   Neighbours may have the same direction: an extreme whose plays were all taken is gone.
 ///
@@ -50,23 +50,29 @@
 
 #include "hyst_f32_internal.h"
 
-/// A quantity in the direction of the move: the mirror image of a falling input is a rising one.
-static inline float hyst_f32_forward(const float value, const bool rising)
+/// +1 up, -1 down: turns a quantity into the direction of the move and back, exactly.
+static inline float hyst_f32_sign(const bool rising)
 {
-    return rising ? value : -value;
+    return rising ? 1.0f : -1.0f;
 }
 
-/// How far beyond the segment's level the envelope is. `ahead` is the envelope in the direction of the move.
-static inline float hyst_f32_beyond(const hyst_f32_segment_t* segment, const bool rising, const float ahead)
+/// Whether the segment was left in this direction.
+static inline bool hyst_f32_is_along(const hyst_f32_segment_t* segment, const bool rising)
 {
-    return ahead - hyst_f32_forward(segment->level, rising);
+    return segment->rising == (rising ? 1 : 0);
+}
+
+/// How far beyond the segment's level `ahead` is, the envelope in the direction of the move.
+static inline float hyst_f32_beyond(const hyst_f32_segment_t* segment, const bool along, const float ahead)
+{
+    return along ? ahead - segment->level : ahead + segment->level;
 }
 
 /// Whether a move to beyond = x takes all plays of the segment.
 static inline bool hyst_f32_is_taken(const hyst_f32_play_t* play, const hyst_f32_segment_t* segment,
-                                     const bool rising, const float x)
+                                     const bool along, const float x)
 {
-    return (segment->rising != 0) == rising ? x >= 0.0f : x > play[segment->last].opening;
+    return along ? x >= 0.0f : x > play[segment->last].opening;
 }
 
 static inline float hyst_f32_loading(const hyst_f32_play_t* play, const float x)
@@ -74,44 +80,22 @@ static inline float hyst_f32_loading(const hyst_f32_play_t* play, const float x)
     return play->loading + play->slope * (x - play->opening);
 }
 
-/// The largest j with opening_j < x, at least `low`, which is what a smooth input finds it at, and at most
-/// `high`.
-static inline uint32_t hyst_f32_last_moved(const hyst_f32_play_t* play, uint32_t low, uint32_t high,
-                                           const float x)
-{
-    for (uint32_t near = 0; near < 2; ++near) {
-        if (low >= high || !(x > play[low + 1].opening)) {
-            return low;
-        }
-        ++low;
-    }
-    while (low < high) {
-        const uint32_t middle = high - (high - low) / 2;
-        if (x > play[middle].opening) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
-    }
-    return low;
-}
-
-/// S over the innermost kept segment, in the direction of the move, when plays 0 ... last have moved.
+/// S over the innermost kept segment when plays 0 ... last have moved.
 static inline float hyst_f32_over(const hyst_f32_play_t* play, const hyst_f32_segment_t* kept,
-                                  const bool rising, const uint32_t last, const float x)
+                                  const bool along, const float end, const uint32_t last, const float x)
 {
-    const float end = hyst_f32_forward(kept->sum[rising], rising);
-    if ((kept->rising != 0) == rising) {
-        return end + play[last].slope * x;
-    }
-    return end - (play[kept->last].loading - hyst_f32_loading(&play[last], x));
+    return along ? end + play[last].slope * x
+                 : end - (play[kept->last].loading - hyst_f32_loading(&play[last], x));
 }
 
-/// S with every play moved, in the direction of the move.
+/// S with every play moved.
 static inline float hyst_f32_over_none(const hyst_f32_model_t* model, const float ahead)
 {
     return ahead * model->play[model->num_plays - 1].slope - model->moment;
 }
+
+/// The largest j with opening_j < x, low <= j <= high.
+uint32_t hyst_f32_last_moved(const hyst_f32_play_t* play, uint32_t low, uint32_t high, float x);
 
 /// sum[rising] of a segment left in the other direction: S over the next one out at the envelope that takes
 /// it.
@@ -122,12 +106,12 @@ float hyst_f32_end_of(const hyst_f32_model_t* model, const hyst_f32_segment_t* m
 typedef struct {
     uint32_t index; ///< state->front + 1 after a reversal
     uint32_t last;  ///< the last play that moved
-    float sum;      ///< S, in the direction of the move
+    float sum;      ///< S
     float end;      ///< after a reversal: sum[rising] of the segment that was turned back from
 } hyst_f32_front_t;
 
-/// The front that a move to `envelope` makes; false when it moves no play. Looks only.
-bool hyst_f32_meet(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising, float envelope,
+/// The front that a move to `ahead` makes; false when it moves no play. Looks only.
+bool hyst_f32_meet(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising, float ahead,
                    hyst_f32_front_t* front);
 
 /// Sets both sums of segments 0 ... front from their levels and plays, as the moves would have.

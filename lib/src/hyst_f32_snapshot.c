@@ -63,7 +63,7 @@ static hyst_f32_segment_t segment_at(const hyst_f32_model_t* model, const float*
 /// The state of a play of the segment.
 static float play_of(const hyst_f32_model_t* model, const hyst_f32_segment_t* segment, const uint32_t play)
 {
-    return hyst_f32_pushed(segment->level, 0.5f * model->play[play].opening, segment->rising != 0);
+    return hyst_f32_sign(segment->rising != 0) * (segment->level - 0.5f * model->play[play].opening);
 }
 
 /// Both envelopes at an input, and the rounding of a play's state without its radius.
@@ -136,7 +136,7 @@ static bool is_their_sum(const hyst_f32_model_t* model, const float* snapshot, c
             slope -= inner->slope;
             moment -= moment_of(inner);
         }
-        sum += hyst_f32_pushed(segment.level * slope, moment, segment.rising != 0);
+        sum += hyst_f32_sign(segment.rising != 0) * (segment.level * slope - moment);
     }
     const float reach = hyst_f32_envelope_bound(model) + widest->opening;
     const float allowance =

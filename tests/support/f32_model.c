@@ -187,8 +187,8 @@ void f32_plays(const f32_model_t* made, const hyst_f32_state_t* state, double* w
     for (uint32_t i = state->front + 1; i-- > 0;) {
         const hyst_f32_segment_t* segment = &state->memory[i];
         for (; j <= segment->last; ++j) {
-            const double radius = (double)made->radius[j];
-            w[j] = (double)segment->level + (segment->rising != 0 ? -radius : radius);
+            const double outward = (double)segment->level - (double)made->radius[j];
+            w[j] = segment->rising != 0 ? outward : -outward;
         }
     }
 }

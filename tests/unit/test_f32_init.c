@@ -63,7 +63,7 @@ static void test_starts_at_negative_saturation(void)
 {
     TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&model, &state, memory, 3));
     TEST_ASSERT_EQUAL_UINT32(0, state.front);
-    TEST_ASSERT_TRUE(memory[0].level == 0.0F && memory[0].last == 2 && memory[0].rising == 0);
+    TEST_ASSERT_TRUE(memory[0].level == -0.0F && memory[0].last == 2 && memory[0].rising == 0);
     TEST_ASSERT_TRUE(state.input == 0.0F && state.output == 0.25F + 2.0F + 1.0F);
     TEST_ASSERT_EQUAL_UINT32(0, state.cell);
     TEST_ASSERT_EQUAL_UINT32(0, state.invalid_inputs);

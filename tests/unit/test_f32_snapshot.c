@@ -172,7 +172,7 @@ static void test_self_test_leaves_a_fresh_state(void)
     TEST_ASSERT_EQUAL(HYST_STATUS_SELF_TEST, hyst_f32_self_test(&made.model, &state, &golden));
     TEST_ASSERT_TRUE(state.input == -4.0F);
     TEST_ASSERT_EQUAL_UINT32(0, state.clamped_inputs);
-    TEST_ASSERT_TRUE(state.front == 0 && made.memory[0].level == -4.0F && made.memory[0].rising == 0);
+    TEST_ASSERT_TRUE(state.front == 0 && made.memory[0].level == 4.0F && made.memory[0].rising == 0);
 }
 
 static void test_self_test_null(void)

@@ -46,11 +46,12 @@ typedef struct {
     const hyst_f32_knot_t* knot; ///< [num_knots], or NULL when num_knots == 0
 } hyst_f32_model_t;
 
-/// Neighbouring plays that one extreme of the envelope left: w_j = level - r_j when `rising`, level + r_j
+/// Neighbouring plays that one extreme of the envelope left: w_j = level - r_j when `rising`, -(level - r_j)
 /// otherwise.
 typedef struct {
-    float level;     ///< the extreme, envelope units
-    float sum[2];    ///< the plays' part of the output when a falling [0] or rising [1] input takes them
+    float level;     ///< the extreme, envelope units; negated when it was left by a falling input
+    float sum[2];    ///< the plays' part of the output when a rising [1] input takes them, negated: when a
+                     ///< falling [0]
     uint16_t last;   ///< the last play; the first one comes after the next segment's last
     uint16_t rising; ///< 1: left by a rising input, 0: by a falling one
 } hyst_f32_segment_t;
@@ -126,7 +127,7 @@ hyst_f32_reach_t hyst_f32_reachable(const hyst_f32_model_t* model, const hyst_f3
 #define HYST_F32_SNAPSHOT_LENGTH(num_plays) (2 * (num_plays) + 3)
 
 /// Copies the state's past to the caller's array of `length` floats: the last input, the plays' part of the
-/// output, the number of segments, and of each segment, outermost first, its level and 1 + last, negative
+/// output, the number of segments, and of each segment, outermost first, its `level` and 1 + last, negative
 /// when it was left by a falling input; the rest 0. Counts are exact in float. Time O(num_plays). Returns
 /// NULL_POINTER or MEMORY_LENGTH (length < HYST_F32_SNAPSHOT_LENGTH(num_plays)).
 HYST_NODISCARD hyst_status_t hyst_f32_save(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
