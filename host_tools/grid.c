@@ -105,7 +105,9 @@ grid_t grid_find(const model_t* model, grid_inputs_t inputs, double low, double 
         search.total_weight += model->weight[j];
     }
     grid_t best = {0};
-    for (int share = 0; share <= NUM_SHARES; ++share) {
+    for (int i = 0; i <= NUM_SHARES; ++i) {
+        // Even shares first: they soon limit the walks that have next to nothing for one of the two.
+        const int share = (i + NUM_SHARES / 2) % (NUM_SHARES + 1);
         search.allowed.envelopes = tolerance * share / NUM_SHARES;
         search.allowed.nonhysteretic = tolerance - search.allowed.envelopes;
         const size_t limit = best.num_knots > 0 ? best.num_knots : HYST_MAX_KNOTS + 1;
