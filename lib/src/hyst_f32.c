@@ -1,23 +1,10 @@
 #include "hyst_f32_segments.h"
 
-uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, const uint32_t guess, const float v)
+uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t low, uint32_t high, const float v)
 {
-    if (model->num_knots == 0) {
-        return 0;
-    }
-    const hyst_f32_knot_t* knot = model->knot;
-    uint32_t low = guess;
-    uint32_t high = guess;
-    if (v < knot[guess].input) {
-        low = v < knot[guess - 1].input ? 0 : guess - 1;
-        high = guess - 1;
-    } else if (!(v < knot[guess + 1].input) && guess + 2 < model->num_knots) {
-        low = guess + 1;
-        high = v < knot[guess + 2].input ? guess + 1 : model->num_knots - 2;
-    }
     while (low < high) {
         const uint32_t middle = high - (high - low) / 2;
-        if (v < knot[middle].input) {
+        if (v < model->knot[middle].input) {
             high = middle - 1;
         } else {
             low = middle;
@@ -29,7 +16,7 @@ uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, const uint32_t guess,
 void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
 {
     state->input = input;
-    state->cell = hyst_f32_find_cell(model, 0, input);
+    state->cell = hyst_f32_find_cell(model, 0, hyst_f32_last_cell(model), input);
     state->output = hyst_f32_offset(model, state->cell, input) + state->plays;
 }
 
@@ -104,7 +91,10 @@ static float step_anywhere(const hyst_f32_model_t* model, hyst_f32_state_t* stat
         count(&state->clamped_inputs);
         v = hyst_f32_limit(input, model->input_min, model->input_max);
     }
-    return move(model, state, hyst_f32_find_cell(model, state->cell, v), v);
+    const bool rising = v > state->input;
+    const uint32_t cell = hyst_f32_find_cell(model, rising ? state->cell : 0,
+                                             rising ? hyst_f32_last_cell(model) : state->cell, v);
+    return move(model, state, cell, v);
 }
 
 /// Whether the input is in the cell, or in the next one in the move's direction, which *cell then is.
@@ -151,7 +141,11 @@ static inline bool extend(const hyst_f32_model_t* model, hyst_f32_state_t* state
             return false;
         }
         if (!along && x > model->play[last + 1].opening) {
-            last = hyst_f32_last_moved(model->play, last + 1, kept->last - 1u, x);
+            // No segment is taken, so that the next opening is there.
+            ++last;
+            if (x > model->play[last + 1].opening) {
+                last = hyst_f32_last_moved(model->play, last + 1, kept->last - 1u, x);
+            }
             top->last = (uint16_t)last;
         }
         sum = hyst_f32_over(model->play, kept, along, kept->sum[rising], last, x);

@@ -91,9 +91,9 @@ static inline float hyst_f32_middle(const hyst_f32_model_t* model)
     return model->input_min + 0.5f * (model->input_max - model->input_min);
 }
 
-/// The cell k with knot[k].input <= v < knot[k + 1].input, the last one for input_max; `guess` is where to
-/// look first. 0 for a model without knots. v within the range.
-uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t guess, float v);
+/// The cell k with knot[k].input <= v < knot[k + 1].input, the last one for input_max, of cells low ... high,
+/// which hold v. 0 for a model without knots.
+uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t low, uint32_t high, float v);
 
 /// The cell of input_max.
 static inline uint32_t hyst_f32_last_cell(const hyst_f32_model_t* model)

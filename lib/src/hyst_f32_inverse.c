@@ -233,8 +233,13 @@ static float find(search_t* search, bool* clamped)
     uint32_t low = 0;
     if (narrow(search, look_at_knot(search, 1))) {
         low = 1;
-        const point_t end = num_ahead == 1 ? search->near : look_at_knot(search, num_ahead);
-        search->far = end;
+        if (num_ahead > 1 && !narrow(search, look_at_knot(search, 2))) {
+            num_ahead = 2;
+        } else {
+            search->far = num_ahead <= 2 ? search->near : look_at_knot(search, num_ahead);
+            low = num_ahead > 1 ? 2 : 1;
+        }
+        const point_t end = search->far;
         if (end.output < search->wanted) {
             *clamped = true;
             search->wanted = end.output;

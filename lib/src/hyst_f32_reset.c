@@ -85,7 +85,7 @@ static float extreme(walk_t* walk, const float two_r)
 static void demagnetise(const hyst_f32_model_t* model, hyst_f32_state_t* state)
 {
     const float middle = hyst_f32_middle(model);
-    const uint32_t cell = hyst_f32_find_cell(model, 0, middle);
+    const uint32_t cell = hyst_f32_find_cell(model, 0, hyst_f32_last_cell(model), middle);
     walk_t walk = {model, middle, cell, cell, false, false, {0.0f, 0.0f}, {0.0f, 0.0f}};
     walk.span.ascending = hyst_f32_envelope(model, cell, middle, true);
     walk.span.descending = hyst_f32_envelope(model, cell, middle, false);

@@ -91,7 +91,7 @@ static bool is_possible(const hyst_f32_model_t* model, const float* snapshot, co
     if (!(v >= model->input_min && v <= model->input_max)) {
         return false;
     }
-    const uint32_t cell = hyst_f32_find_cell(model, 0, v);
+    const uint32_t cell = hyst_f32_find_cell(model, 0, hyst_f32_last_cell(model), v);
     const strip_t strip = {hyst_f32_envelope(model, cell, v, true), hyst_f32_envelope(model, cell, v, false),
                            hyst_f32_envelope_bound(model)};
     hyst_f32_segment_t segment = segment_at(model, snapshot, 0);
