@@ -21,7 +21,7 @@ typedef struct {
 
 /// The curves of a cell as lines through one point.
 typedef struct {
-    float input, envelope, envelope_slope, offset, offset_slope;
+    float input, width, envelope, envelope_slope, offset, offset_slope;
 } lines_t;
 
 static lines_t lines_of(const search_t* search, const uint32_t cell)
@@ -29,13 +29,17 @@ static lines_t lines_of(const search_t* search, const uint32_t cell)
     const hyst_f32_model_t* model = search->model;
     const float sign = search->sign;
     if (model->num_knots == 0) {
-        const lines_t identity = {0.0f, 0.0f, 1.0f, sign * model->constant, model->nonhysteretic_slope};
+        const lines_t identity = {
+            0.0f, FLT_MAX, 0.0f, 1.0f, sign * model->constant, model->nonhysteretic_slope};
         return identity;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    const lines_t lines = {sign * knot->input, sign * (search->rising ? knot->ascending : knot->descending),
+    const lines_t lines = {sign * knot->input,
+                           knot[1].input - knot->input,
+                           sign * (search->rising ? knot->ascending : knot->descending),
                            search->rising ? knot->ascending_slope : knot->descending_slope,
-                           sign * (model->constant + knot->nonhysteretic), knot->nonhysteretic_slope};
+                           sign * (model->constant + knot->nonhysteretic),
+                           knot->nonhysteretic_slope};
     return lines;
 }
 
@@ -187,30 +191,88 @@ static float solve(const search_t* search)
                           near.input, far.input);
 }
 
-/// Solves the line that the present point lies on; false where the answer leaves its cell or its stretch.
-static bool solve_here(const search_t* search, float* input)
+/// A piece of the move in which the same plays move along.
+typedef struct {
+    uint32_t kept;       ///< segments that are not taken, at least one where no play moves
+    uint32_t num_moving; ///< plays 0 ... num_moving - 1 move
+    float slope;         ///< of the plays' sum over the envelope
+    float limit;         ///< the envelope at which the piece ends
+} piece_t;
+
+static piece_t piece_of(const search_t* search, const uint32_t kept, const uint32_t num_moving)
 {
     const hyst_f32_play_t* play = search->model->play;
-    const hyst_f32_segment_t* top = &search->state->memory[search->state->front];
-    const lines_t lines = lines_of(search, search->state->cell);
-    const float present = search->near.input - lines.input;
-    const float ahead = lines.envelope + lines.envelope_slope * present;
-    float slope = lines.offset_slope;
-    float limit; // of the envelope
-    if (!hyst_f32_is_along(top, search->rising)) {
-        limit = play[0].opening - top->level;
-    } else if (ahead < top->level) {
-        limit = top->level;
-    } else {
-        slope += play[top->last].slope * lines.envelope_slope;
-        limit = search->state->front == 0                    ? FLT_MAX
-                : hyst_f32_is_along(top - 1, search->rising) ? top[-1].level
-                                                             : play[top->last + 1].opening - top[-1].level;
+    piece_t piece = {kept, num_moving, num_moving == 0 ? 0.0f : play[num_moving - 1].slope, FLT_MAX};
+    if (kept != 0) {
+        const hyst_f32_segment_t* segment = &search->state->memory[kept - 1];
+        piece.limit = hyst_f32_is_along(segment, search->rising) ? segment->level
+                                                                 : play[num_moving].opening - segment->level;
     }
-    const float step = (search->wanted - search->near.output) / slope;
-    *input = search->near.input + step;
-    return *input > search->near.input && *input < search->far.input &&
-           ahead + lines.envelope_slope * step < limit;
+    return piece;
+}
+
+/// The piece of the present point, where the envelope is at `ahead`.
+static piece_t present_piece(const search_t* search, const float ahead)
+{
+    const uint32_t front = search->state->front;
+    const hyst_f32_segment_t* top = &search->state->memory[front];
+    const bool moves = hyst_f32_is_along(top, search->rising) && ahead >= top->level;
+    return moves ? piece_of(search, front, top->last + 1u) : piece_of(search, front + 1, 0);
+}
+
+static piece_t next_piece(const search_t* search, const piece_t* piece)
+{
+    const hyst_f32_segment_t* kept = &search->state->memory[piece->kept - 1];
+    const bool is_taken = hyst_f32_is_along(kept, search->rising) || piece->num_moving >= kept->last;
+    return is_taken ? piece_of(search, piece->kept - 1, kept->last + 1u)
+                    : piece_of(search, piece->kept, piece->num_moving + 1);
+}
+
+enum { MOST_PIECES = 4 };
+
+/// Follows the output from the present point piece by piece, cell by cell; false where the wanted one is
+/// further away.
+static bool solve_near(const search_t* search, float* input)
+{
+    const uint32_t last_cell = hyst_f32_last_cell(search->model);
+    uint32_t cell = search->state->cell;
+    lines_t lines = lines_of(search, cell);
+    point_t near = search->near;
+    float end = search->far.input;
+    float ahead = lines.envelope + lines.envelope_slope * (near.input - lines.input);
+    piece_t piece = present_piece(search, ahead);
+    for (int i = 0; i < MOST_PIECES; ++i) {
+        const float slope = lines.offset_slope + piece.slope * lines.envelope_slope;
+        const float step = (search->wanted - near.output) / slope;
+        const float width = end - near.input;
+        const float room = (piece.limit - ahead) / lines.envelope_slope;
+        const float least = width < room ? width : room;
+        if (step > 0.0f && step <= least) {
+            *input = near.input + step;
+            return *input < end;
+        }
+        // Not worth following where it is cells away, by this slope.
+        if (!(least >= 0.0f) || (piece.num_moving > 0 && step > 2.0f * lines.width)) {
+            return false;
+        }
+        near.input += least;
+        near.output += slope * least;
+        ahead += lines.envelope_slope * least;
+        if (room < width) {
+            ahead = piece.limit;
+            piece = next_piece(search, &piece);
+            continue;
+        }
+        if (cell == (search->rising ? last_cell : 0)) {
+            return false;
+        }
+        cell = search->rising ? cell + 1 : cell - 1;
+        near.input = end;
+        end = search->sign * search->model->knot[search->rising ? cell + 1 : cell].input;
+        lines = lines_of(search, cell);
+        ahead = lines.envelope + lines.envelope_slope * (near.input - lines.input);
+    }
+    return false;
 }
 
 /// The wanted output's input, in the direction of the move; wanted lies ahead of the present output. *clamped
@@ -226,7 +288,7 @@ static float find(search_t* search, bool* clamped)
         search->far.input = search->sign * model->knot[search->rising ? present + 1 : present].input;
     }
     float input;
-    if (solve_here(search, &input)) {
+    if (solve_near(search, &input)) {
         return input;
     }
     const point_t here = search->near;
