@@ -324,8 +324,14 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     const bool rising = wanted > state->output;
     if (rising || wanted < state->output) {
         const float sign = hyst_f32_sign(rising);
-        search_t search = {
-            .model = model, .state = state, .rising = rising, .sign = sign, .wanted = sign * wanted};
+        // Field by field: an initialiser clears the rest by a memset on cores with few registers.
+        search_t search;
+        search.model = model;
+        search.state = state;
+        search.rising = rising;
+        search.sign = sign;
+        search.wanted = sign * wanted;
+        search.far.output = 0.0f;
         search.near.input = sign * state->input;
         search.near.output = sign * state->output;
         result.input = sign * find(&search, &result.clamped);
