@@ -1,17 +1,17 @@
 #!/bin/sh
-# run.sh HYST LIBRARY INCLUDE_FOLDER MODEL: emits MODEL as a header, compiles it with every compiler at hand, as C
-# and as C++, and holds what it computes against `hyst simulate` within the bounds that the header states.
+# run.sh HYST LIBRARY INCLUDE_FOLDER MODEL SCALAR: emits MODEL as a header, compiles it with every compiler at hand,
+# as C and as C++, and holds what it computes against `hyst simulate` within the bounds that the header states.
 set -eu
-hyst=$1 library=$2 include=$3 model=$4
+hyst=$1 library=$2 include=$3 model=$4 scalar=$5
 here=$(dirname "$0")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT INT TERM
 strict="-Wall -Wextra -Wpedantic -Werror -ffp-contract=off"
 
-"$hyst" emit "$model" -o "$scratch/subject.h" --symbol subject
+"$hyst" emit "$model" -o "$scratch/subject.h" --symbol subject --scalar "$scalar"
 mkdir "$scratch/elsewhere"
 cp "$model" "$scratch/elsewhere/renamed.json"
-(cd "$scratch/elsewhere" && LC_ALL=de_DE.UTF-8 "$hyst" emit renamed.json --symbol subject) > "$scratch/again.h"
+(cd "$scratch/elsewhere" && LC_ALL=de_DE.UTF-8 "$hyst" emit renamed.json --symbol subject --scalar "$scalar") > "$scratch/again.h"
 cmp "$scratch/subject.h" "$scratch/again.h"
 
 num_compilers=0
@@ -28,7 +28,7 @@ check() { # COMPILER STANDARD LANGUAGE
     fi
     num_compilers=$((num_compilers + 1))
     # shellcheck disable=SC2086
-    "$1" "-std=$2" $strict ${HYST_CODEGEN_FLAGS:-} -I"$include" -I"$scratch" '-DHEADER="subject.h"' -x "$3" \
+    "$1" "-std=$2" $strict ${HYST_CODEGEN_FLAGS:-} -I"$include" -I"$scratch" '-DHEADER="subject.h"' "-DSCALAR=$scalar" "-DSCALAR_$scalar" -x "$3" \
         "$here/check.c" -x none "$library" -o "$scratch/check"
     "$scratch/check"
     "$scratch/check" inputs > "$scratch/in.csv"
