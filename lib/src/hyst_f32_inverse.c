@@ -5,6 +5,8 @@
 typedef struct {
     float input;
     float output;
+    float ahead; ///< the envelope there
+    float plays; ///< the plays' part of the output
 } point_t;
 
 /// The stretch in which the wanted output is looked for. Invariant: `near` falls short of it, `far` does not.
@@ -24,7 +26,7 @@ typedef struct {
     float input, width, envelope, envelope_slope, offset, offset_slope;
 } lines_t;
 
-static lines_t lines_of(const search_t* search, const uint32_t cell)
+static inline lines_t lines_of(const search_t* search, const uint32_t cell)
 {
     const hyst_f32_model_t* model = search->model;
     const float sign = search->sign;
@@ -53,7 +55,8 @@ static point_t look(const search_t* search, const uint32_t cell, const float inp
     if (hyst_f32_meet(model, search->state, search->rising, ahead, &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
-    const point_t point = {search->sign * input, search->sign * hyst_f32_offset(model, cell, input) + plays};
+    const point_t point = {search->sign * input, search->sign * hyst_f32_offset(model, cell, input) + plays,
+                           ahead, plays};
     return point;
 }
 
@@ -68,36 +71,64 @@ static bool narrow(search_t* search, const point_t point)
     return false;
 }
 
-/// The m-th knot ahead of the present input, or the end of the range of a model without a table.
-static point_t look_at_knot(const search_t* search, const uint32_t m)
+/// The m-th knot ahead of the present input.
+static uint32_t knot_ahead(const search_t* search, const uint32_t m)
 {
-    const hyst_f32_model_t* model = search->model;
-    if (model->num_knots == 0) {
-        return look(search, 0, search->rising ? model->input_max : model->input_min);
-    }
     const uint32_t present = search->state->cell;
-    const uint32_t knot = search->rising ? present + m : present + 1 - m;
-    const uint32_t last_cell = hyst_f32_last_cell(model);
-    return look(search, knot < last_cell ? knot : last_cell, model->knot[knot].input);
+    return search->rising ? present + m : present + 1 - m;
 }
 
-/// Narrows the stretch, whose ends are the low-th and high-th knot ahead, to one cell: by interpolating, and
-/// where that does not halve it, by halving. Returns `low`.
+static point_t look_at_knot(const search_t* search, const uint32_t m)
+{
+    const uint32_t knot = knot_ahead(search, m);
+    const uint32_t last_cell = hyst_f32_last_cell(search->model);
+    return look(search, knot < last_cell ? knot : last_cell, search->model->knot[knot].input);
+}
+
+/// Which knot ahead, of low ... high, would be the first not to fall short if the plays' sum were linear in
+/// the envelope between the stretch's ends.
+static uint32_t guess_knot(const search_t* search, uint32_t low, uint32_t high)
+{
+    const hyst_f32_model_t* model = search->model;
+    const point_t* near = &search->near;
+    const float width = search->far.ahead - near->ahead;
+    const float slope = width > 0.0f ? (search->far.plays - near->plays) / width : 0.0f;
+    const float wanted =
+        search->wanted - (near->plays - slope * near->ahead) - search->sign * model->constant;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        const hyst_f32_knot_t* knot = &model->knot[knot_ahead(search, middle)];
+        const float envelope = search->rising ? knot->ascending : knot->descending;
+        if (search->sign * (knot->nonhysteretic + slope * envelope) < wanted) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+enum { MOST_GUESSES = 3 };
+
+/// Narrows the stretch, whose ends are the low-th and high-th knot ahead, to one cell: by guesses, and where
+/// those do not halve it in time, by halving. Returns `low`.
 static uint32_t search_cells(search_t* search, uint32_t low, uint32_t high)
 {
-    bool halve = false;
+    uint32_t num_guesses = 0;
+    uint32_t goal = (high - low) / 2;
     while (high - low > 1) {
-        const uint32_t width = high - low;
-        const float part =
-            (search->wanted - search->near.output) / (search->far.output - search->near.output);
-        const uint32_t ahead = halve ? width / 2 : (uint32_t)(part * (float)width);
-        const uint32_t middle = low + (ahead < 1 ? 1 : ahead < width ? ahead : width - 1);
+        const uint32_t middle =
+            num_guesses < MOST_GUESSES ? guess_knot(search, low + 1, high - 1) : low + (high - low) / 2;
         if (narrow(search, look_at_knot(search, middle))) {
             low = middle;
         } else {
             high = middle;
         }
-        halve = !halve && high - low > width / 2;
+        ++num_guesses;
+        if (high - low <= goal) {
+            num_guesses = 0;
+            goal = (high - low) / 2;
+        }
     }
     return low;
 }
@@ -107,7 +138,8 @@ static uint32_t search_cells(search_t* search, uint32_t low, uint32_t high)
 static bool probe_kink(search_t* search, const lines_t* lines, const float ahead, const float sum)
 {
     const float along = (ahead - lines->envelope) / lines->envelope_slope;
-    const point_t point = {lines->input + along, lines->offset + lines->offset_slope * along + sum};
+    const point_t point = {lines->input + along, lines->offset + lines->offset_slope * along + sum, ahead,
+                           sum};
     // Outside the stretch it is known. A flat envelope gives no number where all of the cell is on one side.
     if (!(point.input > search->near.input)) {
         return true;
@@ -199,7 +231,7 @@ typedef struct {
     float limit;         ///< the envelope at which the piece ends
 } piece_t;
 
-static piece_t piece_of(const search_t* search, const uint32_t kept, const uint32_t num_moving)
+static inline piece_t piece_of(const search_t* search, const uint32_t kept, const uint32_t num_moving)
 {
     const hyst_f32_play_t* play = search->model->play;
     piece_t piece = {kept, num_moving, num_moving == 0 ? 0.0f : play[num_moving - 1].slope, FLT_MAX};
@@ -212,7 +244,7 @@ static piece_t piece_of(const search_t* search, const uint32_t kept, const uint3
 }
 
 /// The piece of the present point, where the envelope is at `ahead`.
-static piece_t present_piece(const search_t* search, const float ahead)
+static inline piece_t present_piece(const search_t* search, const float ahead)
 {
     const uint32_t front = search->state->front;
     const hyst_f32_segment_t* top = &search->state->memory[front];
@@ -220,7 +252,7 @@ static piece_t present_piece(const search_t* search, const float ahead)
     return moves ? piece_of(search, front, top->last + 1u) : piece_of(search, front + 1, 0);
 }
 
-static piece_t next_piece(const search_t* search, const piece_t* piece)
+static inline piece_t next_piece(const search_t* search, const piece_t* piece)
 {
     const hyst_f32_segment_t* kept = &search->state->memory[piece->kept - 1];
     const bool is_taken = hyst_f32_is_along(kept, search->rising) || piece->num_moving >= kept->last;
@@ -228,49 +260,63 @@ static piece_t next_piece(const search_t* search, const piece_t* piece)
                     : piece_of(search, piece->kept, piece->num_moving + 1);
 }
 
-enum { MOST_PIECES = 4 };
+enum { MOST_PIECES = 6 };
+
+/// Where a cell ends in the direction of the move.
+static float end_of_cell(const search_t* search, const uint32_t cell)
+{
+    const hyst_f32_model_t* model = search->model;
+    if (model->num_knots == 0) {
+        return search->sign * (search->rising ? model->input_max : model->input_min);
+    }
+    return search->sign * model->knot[search->rising ? cell + 1 : cell].input;
+}
 
 /// Follows the output from the present point piece by piece, cell by cell; false where the wanted one is
 /// further away.
 static bool solve_near(const search_t* search, float* input)
 {
-    const uint32_t last_cell = hyst_f32_last_cell(search->model);
+    const hyst_f32_model_t* model = search->model;
     uint32_t cell = search->state->cell;
     lines_t lines = lines_of(search, cell);
-    point_t near = search->near;
-    float end = search->far.input;
-    float ahead = lines.envelope + lines.envelope_slope * (near.input - lines.input);
+    float near = search->near.input;
+    float rest = search->wanted - search->near.output;
+    float ahead = search->near.ahead;
+    // Not worth following where even all plays together would take cells for it.
+    const float steepest =
+        lines.offset_slope + model->play[model->num_plays - 1].slope * lines.envelope_slope;
+    if (rest > 3.0f * lines.width * steepest) {
+        return false;
+    }
+    float end = end_of_cell(search, cell);
     piece_t piece = present_piece(search, ahead);
     for (int i = 0; i < MOST_PIECES; ++i) {
         const float slope = lines.offset_slope + piece.slope * lines.envelope_slope;
-        const float step = (search->wanted - near.output) / slope;
-        const float width = end - near.input;
+        const float step = rest / slope;
+        *input = near + step;
+        if (step > 0.0f && *input < end && ahead + lines.envelope_slope * step <= piece.limit) {
+            return true;
+        }
         const float room = (piece.limit - ahead) / lines.envelope_slope;
-        const float least = width < room ? width : room;
-        if (step > 0.0f && step <= least) {
-            *input = near.input + step;
-            return *input < end;
-        }
-        // Not worth following where it is cells away, by this slope.
-        if (!(least >= 0.0f) || (piece.num_moving > 0 && step > 2.0f * lines.width)) {
-            return false;
-        }
-        near.input += least;
-        near.output += slope * least;
-        ahead += lines.envelope_slope * least;
-        if (room < width) {
+        if (room < end - near) {
+            if (!(room >= 0.0f)) {
+                return false;
+            }
+            rest -= slope * room;
+            near += room;
             ahead = piece.limit;
             piece = next_piece(search, &piece);
-            continue;
+        } else {
+            if (cell == (search->rising ? hyst_f32_last_cell(model) : 0)) {
+                return false;
+            }
+            rest -= slope * (end - near);
+            near = end;
+            cell = search->rising ? cell + 1 : cell - 1;
+            end = end_of_cell(search, cell);
+            lines = lines_of(search, cell);
+            ahead = lines.envelope + lines.envelope_slope * (near - lines.input);
         }
-        if (cell == (search->rising ? last_cell : 0)) {
-            return false;
-        }
-        cell = search->rising ? cell + 1 : cell - 1;
-        near.input = end;
-        end = search->sign * search->model->knot[search->rising ? cell + 1 : cell].input;
-        lines = lines_of(search, cell);
-        ahead = lines.envelope + lines.envelope_slope * (near.input - lines.input);
     }
     return false;
 }
@@ -281,39 +327,25 @@ static float find(search_t* search, bool* clamped)
 {
     const hyst_f32_model_t* model = search->model;
     const uint32_t present = search->state->cell;
-    uint32_t num_ahead = 1;
-    search->far.input = search->sign * (search->rising ? model->input_max : model->input_min);
-    if (model->num_knots != 0) {
-        num_ahead = search->rising ? model->num_knots - 1 - present : present + 1;
-        search->far.input = search->sign * model->knot[search->rising ? present + 1 : present].input;
-    }
+    const bool rising = search->rising;
     float input;
     if (solve_near(search, &input)) {
         return input;
     }
-    const point_t here = search->near;
-    uint32_t low = 0;
-    if (narrow(search, look_at_knot(search, 1))) {
-        low = 1;
-        if (num_ahead > 1 && !narrow(search, look_at_knot(search, 2))) {
-            num_ahead = 2;
-        } else {
-            search->far = num_ahead <= 2 ? search->near : look_at_knot(search, num_ahead);
-            low = num_ahead > 1 ? 2 : 1;
+    search->far =
+        look(search, rising ? hyst_f32_last_cell(model) : 0, rising ? model->input_max : model->input_min);
+    if (search->far.output < search->wanted) {
+        *clamped = true;
+        search->wanted = search->far.output;
+        if (!(search->near.output < search->wanted)) {
+            return search->near.input;
         }
-        const point_t end = search->far;
-        if (end.output < search->wanted) {
-            *clamped = true;
-            search->wanted = end.output;
-            search->near = here;
-            low = 0;
-            if (!(here.output < end.output)) {
-                return here.input;
-            }
-        }
-        low = search_cells(search, low, num_ahead);
     }
-    search_kinks(search, search->rising ? present + low : present - low);
+    uint32_t low = 0;
+    if (model->num_knots != 0) {
+        low = search_cells(search, 0, rising ? model->num_knots - 1 - present : present + 1);
+    }
+    search_kinks(search, rising ? present + low : present - low);
     return solve(search);
 }
 
@@ -324,16 +356,16 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     const bool rising = wanted > state->output;
     if (rising || wanted < state->output) {
         const float sign = hyst_f32_sign(rising);
-        // Field by field: an initialiser clears the rest by a memset on cores with few registers.
-        search_t search;
+        search_t search; // member by member: initialising it whole calls a memset on some cores
         search.model = model;
         search.state = state;
         search.rising = rising;
         search.sign = sign;
         search.wanted = sign * wanted;
-        search.far.output = 0.0f;
         search.near.input = sign * state->input;
         search.near.output = sign * state->output;
+        search.near.ahead = sign * hyst_f32_envelope(model, state->cell, state->input, rising);
+        search.near.plays = sign * state->plays;
         result.input = sign * find(&search, &result.clamped);
     }
     return result;
