@@ -19,7 +19,7 @@ static int32_t between(double low, double high, double part, double least, doubl
             const int32_t input = between(model->input_min, model->input_max, golden_input(i), least, most); \
             golden->input[i] = input;                                                                        \
             golden->output[i] = hyst_##type##_step(model, &state, (value_type)input);                        \
-            const hyst_##type##_inverse_t here = hyst_##type##_inverse(model, &state, state.output);         \
+            const hyst_##type##_reach_t here = hyst_##type##_reachable(model, &state);                       \
             const int32_t wanted =                                                                           \
                 between(here.reachable_min, here.reachable_max, golden_wanted(i), least, most);              \
             golden->wanted[i] = wanted;                                                                      \

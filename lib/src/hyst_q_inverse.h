@@ -195,8 +195,8 @@ static void search_stretch(search_t* search)
 
 /// The nearest input whose output reaches `wanted`, which lies between the outputs at the present input
 /// (excluded) and at the end of the range in its direction.
-static search_t reach(const hyst_q_model_t* model, const hyst_q_state_t* state, const hyst_q_value_t wanted,
-                      const hyst_q_value_t end_output)
+static search_t find_reaching(const hyst_q_model_t* model, const hyst_q_state_t* state,
+                              const hyst_q_value_t wanted, const hyst_q_value_t end_output)
 {
     search_t search;
     search.model = model;
@@ -213,26 +213,38 @@ static search_t reach(const hyst_q_model_t* model, const hyst_q_state_t* state, 
     return search;
 }
 
+HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_state_t* state)
+{
+    HYST_Q(reach_t) reach;
+    reach.reachable_min = look(model, state, 0, model->input_min, false);
+    reach.reachable_max = look(model, state, model->num_knots - 2, model->input_max, true);
+    return reach;
+}
+
 HYST_Q(inverse_t)
 HYST_Q(inverse)(const hyst_q_model_t* model, const hyst_q_state_t* state, const hyst_q_value_t wanted)
 {
     HYST_Q(inverse_t) result;
     result.input = state->input;
-    result.reachable_min = look(model, state, 0, model->input_min, false);
-    result.reachable_max = look(model, state, model->num_knots - 2, model->input_max, true);
-    result.clamped = wanted < result.reachable_min || wanted > result.reachable_max;
-    hyst_q_value_t goal = wanted < result.reachable_min ? result.reachable_min : wanted;
-    goal = goal > result.reachable_max ? result.reachable_max : goal;
+    result.clamped = false;
+    if (wanted == state->output) {
+        return result;
+    }
+    const bool rising = wanted > state->output;
+    const hyst_q_value_t end_output = rising
+                                          ? look(model, state, model->num_knots - 2, model->input_max, true)
+                                          : look(model, state, 0, model->input_min, false);
+    result.clamped = rising ? wanted > end_output : wanted < end_output;
+    const hyst_q_value_t goal = result.clamped ? end_output : wanted;
     if (goal == state->output) {
         return result;
     }
-    const hyst_q_value_t end_output = goal > state->output ? result.reachable_max : result.reachable_min;
-    search_t search = reach(model, state, goal, end_output);
+    search_t search = find_reaching(model, state, goal, end_output);
     if (apart(goal, search.near.output) <= apart(search.far.output, goal)) {
         if (search.near.output == state->output) {
             return result;
         }
-        search = reach(model, state, search.near.output, end_output);
+        search = find_reaching(model, state, search.near.output, end_output);
     }
     result.input = input_at(&search, search.far.distance);
     return result;

@@ -70,10 +70,20 @@ q_inverse_t q_inverse(const q_model_t* q, int32_t wanted)
 {
     if (is_q31(q)) {
         const hyst_q31_inverse_t found = hyst_q31_inverse(&q->quantized.model, &q->state31, wanted);
-        return (q_inverse_t){found.input, found.reachable_min, found.reachable_max, found.clamped};
+        return (q_inverse_t){found.input, found.clamped};
     }
     const hyst_q15_inverse_t found = hyst_q15_inverse(&q->narrowed.model, &q->state15, (int16_t)wanted);
-    return (q_inverse_t){found.input, found.reachable_min, found.reachable_max, found.clamped};
+    return (q_inverse_t){found.input, found.clamped};
+}
+
+q_reach_t q_reachable(const q_model_t* q)
+{
+    if (is_q31(q)) {
+        const hyst_q31_reach_t reach = hyst_q31_reachable(&q->quantized.model, &q->state31);
+        return (q_reach_t){reach.reachable_min, reach.reachable_max};
+    }
+    const hyst_q15_reach_t reach = hyst_q15_reachable(&q->narrowed.model, &q->state15);
+    return (q_reach_t){reach.reachable_min, reach.reachable_max};
 }
 
 hyst_status_t q_save(const q_model_t* q, uint32_t* snapshot, size_t length)

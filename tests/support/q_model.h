@@ -19,9 +19,13 @@ typedef struct {
 
 /// What hyst_q31_inverse or hyst_q15_inverse answers.
 typedef struct {
-    int32_t input, reachable_min, reachable_max;
+    int32_t input;
     bool clamped;
 } q_inverse_t;
+
+typedef struct {
+    int32_t reachable_min, reachable_max;
+} q_reach_t;
 
 /// Quantizes the model and initialises state and reference at negative saturation; ends the program when that
 /// fails.
@@ -34,6 +38,7 @@ hyst_status_t q_init(q_model_t* q, size_t memory_length);
 int32_t q_step(q_model_t* q, int32_t input);
 int32_t q_reset(q_model_t* q, hyst_start_t start, int32_t input);
 q_inverse_t q_inverse(const q_model_t* q, int32_t wanted);
+q_reach_t q_reachable(const q_model_t* q);
 /// snapshot: [num_plays + 1].
 hyst_status_t q_save(const q_model_t* q, uint32_t* snapshot, size_t length);
 hyst_status_t q_restore(q_model_t* q, const uint32_t* snapshot, size_t length);

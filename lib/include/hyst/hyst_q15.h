@@ -55,10 +55,13 @@ typedef struct {
 
 typedef struct {
     int16_t input;
-    int16_t reachable_min;
-    int16_t reachable_max;
     bool clamped;
 } hyst_q15_inverse_t;
+
+typedef struct {
+    int16_t reachable_min;
+    int16_t reachable_max;
+} hyst_q15_reach_t;
 
 typedef struct {
     uint32_t num_steps;
@@ -73,6 +76,9 @@ HYST_NODISCARD hyst_status_t hyst_q15_init(const hyst_q15_model_t* model, hyst_q
 int16_t hyst_q15_reset(const hyst_q15_model_t* model, hyst_q15_state_t* state, hyst_start_t start, int16_t input);
 int16_t hyst_q15_step(const hyst_q15_model_t* model, hyst_q15_state_t* state, int16_t input);
 hyst_q15_inverse_t hyst_q15_inverse(const hyst_q15_model_t* model, const hyst_q15_state_t* state, int16_t wanted);
+hyst_q15_reach_t hyst_q15_reachable(const hyst_q15_model_t* model, const hyst_q15_state_t* state);
+
+#define HYST_Q15_SNAPSHOT_LENGTH(num_plays) ((num_plays) + 1)
 HYST_NODISCARD hyst_status_t hyst_q15_save(const hyst_q15_model_t* model, const hyst_q15_state_t* state,
                                            uint16_t* snapshot, size_t length);
 HYST_NODISCARD hyst_status_t hyst_q15_restore(const hyst_q15_model_t* model, hyst_q15_state_t* state,

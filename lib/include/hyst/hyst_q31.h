@@ -76,10 +76,14 @@ typedef struct {
 /// What the inverse found.
 typedef struct {
     int32_t input;                ///< the input to apply, within [input_min, input_max]
-    int32_t reachable_min;        ///< least and largest output that one monotone move from the present
-    int32_t reachable_max;        ///<   memory can reach
-    bool clamped;                 ///< the wanted output lies outside them: `input` gives the nearest reachable
+    bool clamped;                 ///< the wanted output is out of reach: `input` gives the nearest reachable
 } hyst_q31_inverse_t;
+
+/// The outputs that one monotone move from the present memory can reach.
+typedef struct {
+    int32_t reachable_min;
+    int32_t reachable_max;
+} hyst_q31_reach_t;
 
 /// Golden vectors for the target, made by `hyst emit` on the host.
 typedef struct {
@@ -114,6 +118,12 @@ int32_t hyst_q31_step(const hyst_q31_model_t* model, hyst_q31_state_t* state, in
 /// input. To commit it, pass the input that was really applied to hyst_q31_step.
 /// Time O((log num_knots + log num_plays + 64) log num_plays): halvings and one division, no iteration to a tolerance.
 hyst_q31_inverse_t hyst_q31_inverse(const hyst_q31_model_t* model, const hyst_q31_state_t* state, int32_t wanted);
+
+/// Looks, and changes nothing: what hyst_q31_step gives at either end of the range. Time O(log num_plays).
+hyst_q31_reach_t hyst_q31_reachable(const hyst_q31_model_t* model, const hyst_q31_state_t* state);
+
+/// Numbers in a snapshot of a model with this many plays.
+#define HYST_Q31_SNAPSHOT_LENGTH(num_plays) ((num_plays) + 1)
 
 /// Copies the state's past to snapshot[num_plays + 1] (input - input_min, then the plays' states), the caller's array
 /// of `length` numbers. Returns NULL_POINTER or MEMORY_LENGTH (length < num_plays + 1). Time O(num_plays).

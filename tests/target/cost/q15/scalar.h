@@ -7,8 +7,10 @@
 #define SCALAR(name) hyst_q15_##name
 
 typedef int16_t sample_t;
+typedef hyst_q15_segment_t memory_t;
 typedef uint16_t saved_t;
+typedef hyst_q15_reach_t reach_t;
 
-#include "../fixed_point.h"
+#include "../fixed.h"
 
 #endif

@@ -7,8 +7,10 @@
 #define SCALAR(name) hyst_q31_##name
 
 typedef int32_t sample_t;
+typedef hyst_q31_segment_t memory_t;
 typedef uint32_t saved_t;
+typedef hyst_q31_reach_t reach_t;
 
-#include "../fixed_point.h"
+#include "../fixed.h"
 
 #endif
