@@ -39,7 +39,7 @@ static hyst_q_value_t look(const hyst_q_model_t* model, const hyst_q_state_t* st
     }
     const uint32_t level = hyst_q_envelope(model, cell, v, rising);
     const hyst_q_front_t front = HYST_Q(find_front)(model, state, level, rising);
-    return hyst_q_output(model, cell, v, front.below + hyst_q_part(model, 0, front.end, level, !rising));
+    return hyst_q_output(model, cell, v, front.below + hyst_q_front_part(model, front.end, level, !rising));
 }
 
 /// Takes the point as the stretch's near or far end; true: the near one.
@@ -150,7 +150,7 @@ static hyst_q_value_t output_within(const search_t* search, const hyst_q_front_t
     const hyst_q_value_t v = input_at(search, distance);
     const uint32_t level = hyst_q_envelope(model, search->cell, v, search->rising);
     return hyst_q_output(model, search->cell, v,
-                         front->below + hyst_q_part(model, 0, front->end, level, !search->rising));
+                         front->below + hyst_q_front_part(model, front->end, level, !search->rising));
 }
 
 static uint32_t apart(const hyst_q_value_t a, const hyst_q_value_t b)

@@ -37,7 +37,7 @@ typedef struct {
 } hyst_q15_model_t;
 
 typedef struct {
-    uint32_t below;
+    uint32_t rest;
     uint32_t level;
     uint16_t end;
     uint16_t falling;

@@ -56,7 +56,8 @@ typedef struct {
 
 /// Plays that were pushed together: from the end of the segment above it on the stack (0 for the topmost) to `end`.
 typedef struct {
-    uint64_t below;               ///< sum of p_j w_j over the plays from `end` on
+    uint64_t rest;                ///< sum of p_j w_j over the plays from `end` on, less (level - r_j) or plus (level + r_j)
+                                  ///< the sum of p_j r_j over all plays before `end`, modulo 2^64
     uint32_t level;               ///< their states are level - r_j, or level + r_j
     uint16_t end;                 ///< one past its last play
     uint16_t falling;             ///< 1: level + r_j, pushed by a falling input; 0: level - r_j
