@@ -8,6 +8,7 @@ sh "$source/tests/target/need_tools.sh" "$core" picolibc
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$source/ports/toolchain.cmake" -DHYST_CORE="$core" \
     -DCMAKE_BUILD_TYPE=Release -DHYST_BUILD_HOST_TOOLS=OFF -DHYST_BUILD_TESTS=ON >"$build.log" 2>&1 &&
     cmake --build "$build" --target "target_$layer" >>"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
+export HYST_QEMU_SECONDS="${HYST_QEMU_SECONDS:-400}"
 failed=0 count=0
 for image in "$build/tests/target/$layer".*.elf; do
     name=$(basename "$image" .elf)
