@@ -13,6 +13,7 @@ typedef struct {
     const hyst_q_state_t* state;
     hyst_q_value_t wanted;
     bool rising;
+    bool clamped; ///< the output asked for is out of reach: `wanted` is the last one within
     uint32_t cell;
     point_t near;
     point_t far;
@@ -42,17 +43,48 @@ static hyst_q_value_t look(const hyst_q_model_t* model, const hyst_q_state_t* st
     return hyst_q_output(model, cell, v, front.below + hyst_q_front_part(model, front.end, level, !rising));
 }
 
+static bool falls_short(const search_t* search, const hyst_q_value_t output)
+{
+    return search->rising ? output < search->wanted : output > search->wanted;
+}
+
 /// Takes the point as the stretch's near or far end; true: the near one.
 static bool narrow(search_t* search, const uint32_t distance, const hyst_q_value_t output)
 {
     const point_t point = {distance, output};
-    const bool short_of = search->rising ? output < search->wanted : output > search->wanted;
+    const bool short_of = falls_short(search, output);
     if (short_of) {
         search->near = point;
     } else {
         search->far = point;
     }
     return short_of;
+}
+
+/// Whether the answer lies in the present cell, which is then the stretch.
+static bool is_in_present_cell(search_t* search)
+{
+    const uint32_t cell = search->state->cell;
+    const hyst_q_value_t v = search->model->knot[search->rising ? cell + 1 : cell].input;
+    search->cell = cell;
+    return !narrow(search, distance_of(search, v),
+                   look(search->model, search->state, cell, v, search->rising));
+}
+
+/// Takes the rest of the range as the stretch; what is beyond its last output is clamped to that.
+static void take_range(search_t* search)
+{
+    const hyst_q_model_t* model = search->model;
+    const hyst_q_value_t end = search->rising ? model->input_max : model->input_min;
+    search->far.distance = distance_of(search, end);
+    search->far.output =
+        look(model, search->state, search->rising ? model->num_knots - 2 : 0, end, search->rising);
+    if (falls_short(search, search->far.output)) {
+        search->clamped = true;
+        search->wanted = search->far.output;
+        search->near.distance = 0;
+        search->near.output = search->state->output;
+    }
 }
 
 /// Narrows the stretch to one cell of the table.
@@ -62,9 +94,8 @@ static void search_cells(search_t* search)
     const uint32_t first = search->state->cell;
     uint32_t low = search->rising ? first : 0;
     uint32_t high = search->rising ? model->num_knots - 2 : first;
-    // The present cell first: a small correction stays in it.
-    uint32_t middle = search->rising ? low : high - (high > low ? 1 : 0);
     while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
         const hyst_q_value_t v = model->knot[middle + 1].input;
         const bool short_of =
             narrow(search, distance_of(search, v), look(model, search->state, middle, v, search->rising));
@@ -73,7 +104,6 @@ static void search_cells(search_t* search)
         } else {
             high = middle;
         }
-        middle = low + (high - low) / 2;
     }
     search->cell = low;
 }
@@ -124,22 +154,25 @@ static uint32_t kink(const search_t* search, const uint32_t j)
     return search->rising ? ahead + behind : 1U - (ahead + behind);
 }
 
-/// Narrows the stretch until no play starts to move between its ends.
-static void search_kinks(search_t* search)
+/// Narrows the stretch until no play starts to move between its ends. Returns which plays move in there.
+static hyst_q_front_t search_kinks(search_t* search)
 {
-    uint32_t low = front_at(search, search->near.distance).end;
+    hyst_q_front_t front = front_at(search, search->near.distance);
     uint32_t high = front_at(search, search->far.distance).end;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
+    // The next kink first: a small correction does not reach it.
+    uint32_t middle = front.end;
+    while (front.end < high) {
         const uint32_t distance = kink(search, middle);
         const hyst_q_value_t v = input_at(search, distance);
         const hyst_q_value_t output = look(search->model, search->state, search->cell, v, search->rising);
         if (narrow(search, distance, output)) {
-            low = front_at(search, distance).end;
+            front = front_at(search, distance);
         } else {
             high = middle;
         }
+        middle = front.end + (high - front.end) / 2;
     }
+    return front;
 }
 
 /// The output at this distance, within a stretch whose plays before front->end move.
@@ -162,23 +195,22 @@ static uint32_t apart(const hyst_q_value_t a, const hyst_q_value_t b)
 static uint32_t straight(const search_t* search)
 {
     const uint32_t width = search->far.distance - search->near.distance;
-    const uint64_t rise = apart(search->far.output, search->near.output);
-    const uint64_t part = apart(search->wanted, search->near.output);
+    const hyst_q_sum_t rise = apart(search->far.output, search->near.output);
+    const hyst_q_sum_t part = apart(search->wanted, search->near.output);
     const uint32_t ahead = (uint32_t)(part * width / rise);
     return search->near.distance + (ahead == 0 ? 1U : ahead == width ? width - 1 : ahead);
 }
 
 /// Finds the answer in a stretch without kinks. Rounding takes the outputs off a straight line by a few
 /// units: from where that line says, steps that double enclose the answer, and halvings find it.
-static void search_stretch(search_t* search)
+static void search_stretch(search_t* search, const hyst_q_front_t* front)
 {
     if (search->far.distance - search->near.distance < 2) {
         return;
     }
-    const hyst_q_front_t front = front_at(search, search->near.distance);
     uint32_t distance = straight(search);
     uint32_t step = 1;
-    bool outward = narrow(search, distance, output_within(search, &front, distance));
+    bool outward = narrow(search, distance, output_within(search, front, distance));
     bool enclosed = false;
     while (search->far.distance - search->near.distance > 1) {
         const uint32_t room = search->far.distance - search->near.distance;
@@ -188,29 +220,35 @@ static void search_stretch(search_t* search)
             distance = outward ? search->near.distance + step : search->far.distance - step;
             step *= 2;
         }
-        const bool short_of = narrow(search, distance, output_within(search, &front, distance));
+        const bool short_of = narrow(search, distance, output_within(search, front, distance));
         enclosed = enclosed || short_of != outward;
     }
 }
 
-/// The nearest input whose output reaches `wanted`, which lies between the outputs at the present input
-/// (excluded) and at the end of the range in its direction.
-static search_t find_reaching(const hyst_q_model_t* model, const hyst_q_state_t* state,
-                              const hyst_q_value_t wanted, const hyst_q_value_t end_output)
+/// Finds the nearest input whose output reaches `wanted`, as the far end of a stretch of one unit; or, where
+/// nothing within reach is nearer to it than the present output, the present input.
+static void find_reaching(search_t* search)
 {
-    search_t search;
-    search.model = model;
-    search.state = state;
-    search.wanted = wanted;
-    search.rising = wanted > state->output;
-    search.near.distance = 0;
-    search.near.output = state->output;
-    search.far.distance = distance_of(&search, search.rising ? model->input_max : model->input_min);
-    search.far.output = end_output;
-    search_cells(&search);
-    search_kinks(&search);
-    search_stretch(&search);
-    return search;
+    search->near.distance = 0;
+    search->near.output = search->state->output;
+    if (!is_in_present_cell(search)) {
+        take_range(search);
+        if (search->wanted == search->state->output) {
+            search->far = search->near;
+            return;
+        }
+        search_cells(search);
+    }
+    const hyst_q_front_t front = search_kinks(search);
+    search_stretch(search, &front);
+}
+
+/// Whether the next input nearer than `near` gives another output.
+static bool is_first_of_its_output(const search_t* search)
+{
+    const hyst_q_value_t v = input_at(search, search->near.distance - 1);
+    const uint32_t cell = HYST_Q(find_cell)(search->model, search->cell, v);
+    return look(search->model, search->state, cell, v, search->rising) != search->near.output;
 }
 
 HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_state_t* state)
@@ -224,27 +262,30 @@ HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_stat
 HYST_Q(inverse_t)
 HYST_Q(inverse)(const hyst_q_model_t* model, const hyst_q_state_t* state, const hyst_q_value_t wanted)
 {
+    search_t search;
     HYST_Q(inverse_t) result;
     result.input = state->input;
     result.clamped = false;
     if (wanted == state->output) {
         return result;
     }
-    const bool rising = wanted > state->output;
-    const hyst_q_value_t end_output = rising
-                                          ? look(model, state, model->num_knots - 2, model->input_max, true)
-                                          : look(model, state, 0, model->input_min, false);
-    result.clamped = rising ? wanted > end_output : wanted < end_output;
-    const hyst_q_value_t goal = result.clamped ? end_output : wanted;
-    if (goal == state->output) {
-        return result;
-    }
-    search_t search = find_reaching(model, state, goal, end_output);
-    if (apart(goal, search.near.output) <= apart(search.far.output, goal)) {
+    search.model = model;
+    search.state = state;
+    search.wanted = wanted;
+    search.rising = wanted > state->output;
+    search.clamped = false;
+    find_reaching(&search);
+    result.clamped = search.clamped;
+    if (apart(search.wanted, search.near.output) <= apart(search.far.output, search.wanted)) {
         if (search.near.output == state->output) {
             return result;
         }
-        search = find_reaching(model, state, search.near.output, end_output);
+        if (is_first_of_its_output(&search)) {
+            search.far = search.near;
+        } else {
+            search.wanted = search.near.output;
+            find_reaching(&search);
+        }
     }
     result.input = input_at(&search, search.far.distance);
     return result;
