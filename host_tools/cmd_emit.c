@@ -16,15 +16,24 @@ typedef struct {
     char* table_error;
 } options_t;
 
+typedef enum { SCALAR_F32, SCALAR_Q31, SCALAR_Q15, NUM_SCALARS } scalar_t;
+
+/// NUM_SCALARS for a name that is none.
+static scalar_t find_scalar(const options_t* options)
+{
+    static const char* const name[NUM_SCALARS] = {"f32", "q31", "q15"};
+    scalar_t scalar = SCALAR_F32;
+    while (options->scalar != NULL && scalar < NUM_SCALARS && strcmp(options->scalar, name[scalar]) != 0) {
+        ++scalar;
+    }
+    return scalar;
+}
+
 static outcome_t check_options(const options_t* options)
 {
-    const char* scalar = options->scalar;
-    if (scalar != NULL && (strcmp(scalar, "q31") == 0 || strcmp(scalar, "q15") == 0)) {
-        return message_error(OUTCOME_USAGE, NOWHERE, "--scalar %s is not in this version, expected f32",
-                             scalar);
-    }
-    if (scalar != NULL && strcmp(scalar, "f32") != 0) {
-        return message_error(OUTCOME_USAGE, NOWHERE, "--scalar \"%s\" is no scalar, expected f32", scalar);
+    if (find_scalar(options) == NUM_SCALARS) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "--scalar \"%s\" is no scalar, expected f32, q31 or q15",
+                             options->scalar);
     }
     if (options->symbol != NULL && !c_symbol_is_valid(options->symbol)) {
         return message_error(
@@ -53,34 +62,72 @@ static outcome_t find_table_error(const options_t* options, const model_t* model
     return OUTCOME_OK;
 }
 
-static outcome_t write_header(const char* path, const emission_t* emission)
+/// The model in the firmware's numbers: one or the other.
+typedef struct {
+    const tabulated_t* tabulated;
+    const golden_t* golden;
+    const quantized_t* quantized;
+    const golden_q_t* golden_q;
+} firmware_t;
+
+static outcome_t write_header(const char* path, const emission_t* emission, const firmware_t* firmware)
 {
     output_file_t file;
     outcome_t outcome = output_open(&file, path);
     if (outcome == OUTCOME_OK) {
-        emit_c(file.stream, emission);
+        if (firmware->tabulated != NULL) {
+            emit_f32(file.stream, emission, firmware->tabulated, firmware->golden);
+        } else {
+            emit_q(file.stream, emission, firmware->quantized, firmware->golden_q);
+        }
         outcome = output_commit(&file);
     }
     return outcome;
 }
 
-static outcome_t emit_tabulated(const options_t* options, location_t from, emission_t* emission)
+static outcome_t refuse_form(location_t from, const char* scalar, hyst_status_t status)
 {
+    return message_error(OUTCOME_NUMERICAL, from, "the model has no valid form in %s: %s", scalar,
+                         hyst_status_text(status));
+}
+
+static outcome_t refuse_table(location_t from, const char* scalar, const emission_t* emission,
+                              const char* fault)
+{
+    return message_error(OUTCOME_NUMERICAL, from, "cannot be put into %s with a table error of %.9g: %s",
+                         scalar, emission->requested_table_error, fault);
+}
+
+static outcome_t emit_float(const options_t* options, location_t from, const emission_t* emission)
+{
+    tabulated_t tabulated;
     golden_t golden;
-    const hyst_status_t status = golden_make(&emission->tabulated->model, &golden);
-    if (status != HYST_STATUS_OK) {
-        return message_error(OUTCOME_NUMERICAL, from, "the model has no valid form in float: %s",
-                             hyst_status_text(status));
+    const char* fault = tabulate(emission->model, emission->requested_table_error, &tabulated);
+    if (fault != NULL) {
+        return refuse_table(from, "float", emission, fault);
     }
-    if (emission->model->initial != NULL) {
-        message_note(from,
-                     "the \"initial\" states are not part of the header: firmware starts from saturation");
+    const hyst_status_t status = golden_make(&tabulated.model, &golden);
+    const firmware_t firmware = {.tabulated = &tabulated, .golden = &golden};
+    const outcome_t outcome = status == HYST_STATUS_OK ? write_header(options->output, emission, &firmware)
+                                                       : refuse_form(from, "float", status);
+    tabulated_free(&tabulated);
+    return outcome;
+}
+
+static outcome_t emit_fixed(const options_t* options, location_t from, const emission_t* emission)
+{
+    const quantized_bits_t bits = find_scalar(options) == SCALAR_Q31 ? QUANTIZED_Q31 : QUANTIZED_Q15;
+    quantized_t quantized;
+    golden_q_t golden;
+    const char* fault = quantize(emission->model, bits, emission->requested_table_error, &quantized);
+    if (fault != NULL) {
+        return refuse_table(from, options->scalar, emission, fault);
     }
-    char* own_symbol = options->symbol == NULL ? c_symbol_from(emission->model->name) : NULL;
-    emission->golden = &golden;
-    emission->symbol = options->symbol == NULL ? own_symbol : options->symbol;
-    const outcome_t outcome = write_header(options->output, emission);
-    free(own_symbol);
+    const hyst_status_t status = golden_q_make(&quantized, &golden);
+    const firmware_t firmware = {.quantized = &quantized, .golden_q = &golden};
+    const outcome_t outcome = status == HYST_STATUS_OK ? write_header(options->output, emission, &firmware)
+                                                       : refuse_form(from, options->scalar, status);
+    quantized_free(&quantized);
     return outcome;
 }
 
@@ -95,16 +142,15 @@ static outcome_t emit_model(const options_t* options, const char* path, const mo
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    tabulated_t tabulated;
-    const char* fault = tabulate(model, emission.requested_table_error, &tabulated);
-    if (fault != NULL) {
-        return message_error(OUTCOME_NUMERICAL, from,
-                             "cannot be put into float with a table error of %.9g: %s",
-                             emission.requested_table_error, fault);
+    if (model->initial != NULL) {
+        message_note(from,
+                     "the \"initial\" states are not part of the header: firmware starts from saturation");
     }
-    emission.tabulated = &tabulated;
-    outcome = emit_tabulated(options, from, &emission);
-    tabulated_free(&tabulated);
+    char* own_symbol = options->symbol == NULL ? c_symbol_from(model->name) : NULL;
+    emission.symbol = options->symbol == NULL ? own_symbol : options->symbol;
+    outcome = find_scalar(options) == SCALAR_F32 ? emit_float(options, from, &emission)
+                                                 : emit_fixed(options, from, &emission);
+    free(own_symbol);
     return outcome;
 }
 
@@ -127,7 +173,8 @@ outcome_t cmd_emit(int argc, const char** argv)
     options_t options = {0};
     const struct poptOption table[] = {
         {"output", 'o', POPT_ARG_STRING, &options.output, 0, "the header to write (default: stdout)", "FILE"},
-        {"scalar", 0, POPT_ARG_STRING, &options.scalar, 0, "the firmware's numbers: f32 (default)", "NAME"},
+        {"scalar", 0, POPT_ARG_STRING, &options.scalar, 0,
+         "the firmware's numbers: f32 (default), q31 or q15", "NAME"},
         {"symbol", 0, POPT_ARG_STRING, &options.symbol, 0,
          "what every name in the header begins with (default: the model's name)", "NAME"},
         {"table-error", 0, POPT_ARG_STRING, &options.table_error, 0,

@@ -64,7 +64,7 @@ run_firmware() { # run_firmware PRESET BUILD-FOLDER RUN...: builds the self-test
 }
 run_firmware release "$out/firmware_host" "$out/firmware_host/ports/self_test" >"$out/firmware_host.txt"
 if [ $target = yes ]; then
-    run_firmware cortex-m4f "$out/firmware_m4f" sh ports/cortex_m/qemu_run.sh "$out/firmware_m4f/ports/self_test.elf" \
+    run_firmware cortex-m4f "$out/firmware_m4f" sh ports/qemu_run.sh cortex_m4f "$out/firmware_m4f/ports/self_test.elf" \
         >"$out/firmware_m4f.txt"
 fi
 

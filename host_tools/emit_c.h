@@ -1,20 +1,16 @@
-/// The generated C header: a model's float form as constants, with its golden vectors and error bounds.
+/// The generated C header: a model as constants, with its golden vectors and error bounds. The bytes depend
+/// on the arguments and this program's version alone.
 #ifndef HYST_HOST_EMIT_C_H
 #define HYST_HOST_EMIT_C_H
 
+#include "emit_text.h"
 #include "golden.h"
+#include "golden_q.h"
+#include "quantize.h"
 #include "tabulate.h"
-#include <stdio.h>
 
-typedef struct {
-    const model_t* model; ///< where it comes from
-    const tabulated_t* tabulated;
-    const golden_t* golden;
-    const char* symbol;           ///< c_symbol_is_valid
-    double requested_table_error; ///< output units
-} emission_t;
-
-/// Writes the header to `stream`: the bytes depend on *emission and this program's version alone.
-void emit_c(FILE* stream, const emission_t* emission);
+void emit_f32(FILE* stream, const emission_t* emission, const tabulated_t* tabulated, const golden_t* golden);
+/// In q31 or q15, as it was quantized to.
+void emit_q(FILE* stream, const emission_t* emission, const quantized_t* quantized, const golden_q_t* golden);
 
 #endif

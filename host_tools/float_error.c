@@ -55,10 +55,11 @@ static sizes_t line_sizes(const prepared_t* prepared, const hyst_f32_model_t* st
 }
 
 /// How far a computed curve value is off: a stored slope has two roundings of differences and one of its own
-/// in it, v - x and the product round once each, all of at most the rise, and the sum rounds once.
+/// in it, v - x and the product round once each, all of at most the rise, and the sum rounds once. Lowering
+/// the slope until the line stays below the next value takes off another unit of the slope and of the sum.
 static double computed(sizes_t sizes)
 {
-    return sizes.deviation + unit_roundoff * (5.0 * sizes.rise + sizes.magnitude) + (double)FLT_MIN;
+    return sizes.deviation + unit_roundoff * (7.0 * sizes.rise + 2.0 * sizes.magnitude) + (double)FLT_MIN;
 }
 
 static sizes_t larger(sizes_t a, sizes_t b)
@@ -66,7 +67,30 @@ static sizes_t larger(sizes_t a, sizes_t b)
     return (sizes_t){fmax(a.deviation, b.deviation), fmax(a.magnitude, b.magnitude), fmax(a.rise, b.rise)};
 }
 
-double float_error(const prepared_t* prepared, const hyst_f32_model_t* stored)
+/// A segment's sum comes from the next one out, N of them at most. Each adds: x, x - opening, the product and
+/// the two loadings' sum and difference, 5 u of slope_j opening_{j+1}, the segments' j all different; the end
+/// that it counts from and the envelope there, 2 u of the sum of all magnitudes. What rounding moved the
+/// stored loading curve by, (N + 4) u of its end, enters with alternating signs at openings that shrink, so
+/// no more than twice its variation. A sum over no segment: product, moment and difference, 3 u of all
+/// magnitudes.
+double float_error_of_sums(const hyst_f32_model_t* stored, double magnitude)
+{
+    const double num_plays = (double)stored->num_plays;
+    const hyst_f32_play_t* play = stored->play;
+    const hyst_f32_play_t* last = &play[stored->num_plays - 1];
+    double lines = 0.0;
+    for (uint32_t j = 0; j < stored->num_plays; ++j) {
+        const uint32_t next = j + 1 < stored->num_plays ? j + 1 : j;
+        lines += (double)play[j].slope * (double)play[next].opening;
+    }
+    const double all = (double)last->slope * (magnitude + (double)last->opening);
+    const double curve = 4.0 * (num_plays + 4.0) * (double)last->loading;
+    return unit_roundoff * ((2.0 * num_plays + 3.0) * all + 5.0 * lines + curve) +
+           (8.0 * num_plays + 8.0) * (double)FLT_MIN;
+}
+
+double float_error(const prepared_t* prepared, const hyst_f32_model_t* stored, const float* radius,
+                   const float* weight)
 {
     const model_t* model = &prepared->model;
     sizes_t envelope;
@@ -83,19 +107,18 @@ double float_error(const prepared_t* prepared, const hyst_f32_model_t* stored)
     double error = 0.0;
     double magnitude = 0.0;
     // A state is a maximum and minimum of pushed envelopes, so errors do not add up over time: it is off by
-    // the envelope's error, its radius' and one rounding. The product with the weight rounds once more.
+    // the envelope's error and its radius'.
     for (size_t j = 0; j < model->num_plays; ++j) {
-        const double radius = (double)stored->radius[j];
-        const double weight = (double)stored->weight[j];
-        const double reach = envelope.magnitude + radius;
-        const double state = computed(envelope) + fabs(radius - model->radius[j]) + unit_roundoff * reach;
-        error += weight * state + fabs(weight - model->weight[j]) * reach + (double)FLT_MIN;
-        magnitude += weight * reach;
+        const double reach = envelope.magnitude + (double)radius[j];
+        const double state = computed(envelope) + fabs((double)radius[j] - model->radius[j]);
+        error += (double)weight[j] * state + fabs((double)weight[j] - model->weight[j]) * reach;
+        magnitude += (double)weight[j] * reach;
     }
-    // Each of the num_plays + 1 additions rounds a partial sum no larger than the sum of the magnitudes.
+    error += float_error_of_sums(stored, envelope.magnitude);
+    // The constant plus D, and that plus the plays.
     const double offset = fabs((double)stored->constant) + nonhysteretic.magnitude;
-    error += unit_roundoff * (((double)model->num_plays + 2.0) * magnitude + 2.0 * offset);
+    error += unit_roundoff * (magnitude + 2.0 * offset);
     error += fabs((double)stored->constant - prepared->constant) + computed(nonhysteretic);
-    // Second-order terms: (num_plays + 2) roundings are below 3e-4 of a term for HYST_MAX_PLAYS plays.
+    // Second-order terms: 2 (num_plays + 4) roundings are below 6e-4 of a term for HYST_MAX_PLAYS plays.
     return 1.001 * error;
 }

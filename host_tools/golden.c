@@ -14,7 +14,7 @@ static uint32_t bits_of(float value)
 /// Where in the range (0 ... 1) step i goes: up and beyond, down and beyond, then 32 reversals that shrink,
 /// each with a step on the way, the last sample held, and reversals that grow beyond the range and wipe them
 /// out.
-static double position(size_t i)
+double golden_input(size_t i)
 {
     enum { SWEEP = 16, NESTED = 64, HELD = SWEEP + NESTED };
     if (i < SWEEP) {
@@ -33,22 +33,26 @@ static float input_at(const hyst_f32_model_t* model, size_t i)
 {
     const double low = (double)model->input_min;
     const double high = (double)model->input_max;
-    return (float)(low + position(i) * (high - low));
+    return (float)(low + golden_input(i) * (high - low));
 }
 
-/// Wanted outputs go through the reachable ones in steps of 0.15, and a little beyond at both ends.
+/// Through the reachable outputs in steps of 0.15, and a little beyond at both ends.
+double golden_wanted(size_t i)
+{
+    return -0.2 + 0.15 * (double)(i * 7 % 10);
+}
+
 static float wanted_at(const hyst_f32_model_t* model, const hyst_f32_state_t* state, size_t i)
 {
-    const hyst_f32_inverse_t here = hyst_f32_inverse(model, state, state->output);
-    const double part = -0.2 + 0.15 * (double)(i * 7 % 10);
-    const double low = (double)here.reachable_min;
-    const double high = (double)here.reachable_max;
-    return (float)(low + part * (high - low));
+    const hyst_f32_reach_t reach = hyst_f32_reachable(model, state);
+    const double low = (double)reach.reachable_min;
+    const double high = (double)reach.reachable_max;
+    return (float)(low + golden_wanted(i) * (high - low));
 }
 
 hyst_status_t golden_make(const hyst_f32_model_t* model, golden_t* golden)
 {
-    float* memory = xcalloc(model->num_plays, sizeof(float));
+    hyst_f32_segment_t* memory = xcalloc(model->num_plays, sizeof *memory);
     hyst_f32_state_t state;
     const hyst_status_t status = hyst_f32_init(model, &state, memory, model->num_plays);
     for (size_t i = 0; status == HYST_STATUS_OK && i < GOLDEN_STEPS; ++i) {

@@ -6,6 +6,11 @@
 
 enum { GOLDEN_STEPS = 96 };
 
+/// Where step i goes, whatever the scalar: the input, as a part of the input's range, and the wanted output,
+/// as a part of the reachable ones. Either may lie beyond 0 ... 1.
+double golden_input(size_t i);
+double golden_wanted(size_t i);
+
 typedef struct {
     uint32_t input[GOLDEN_STEPS], output[GOLDEN_STEPS], wanted[GOLDEN_STEPS], inverse[GOLDEN_STEPS];
 } golden_t;

@@ -12,40 +12,52 @@ typedef struct {
 
 typedef struct {
     const model_t* model;
+    grid_inputs_t inputs;
     double total_weight;
     cell_error_t allowed;
 } search_t;
 
-static cell_error_t cell_error(const search_t* search, float low, float high)
+static cell_error_t cell_error(const search_t* search, double low, double high)
 {
     const model_t* model = search->model;
-    const double ascending = chord_error(&model->ascending, (double)low, (double)high);
-    const double descending = chord_error(&model->descending, (double)low, (double)high);
+    if (search->inputs == GRID_OF_INTEGERS && high - low <= 1.0) {
+        return (cell_error_t){0.0, 0.0};
+    }
+    const double ascending = chord_error(&model->ascending, low, high);
+    const double descending = chord_error(&model->descending, low, high);
     return (cell_error_t){search->total_weight * fmax(ascending, descending),
-                          chord_error(&model->nonhysteretic, (double)low, (double)high)};
+                          chord_error(&model->nonhysteretic, low, high)};
 }
 
-static bool is_allowed(const search_t* search, float low, float high)
+static bool is_allowed(const search_t* search, double low, double high)
 {
     const cell_error_t error = cell_error(search, low, high);
     return error.envelopes <= search->allowed.envelopes &&
            error.nonhysteretic <= search->allowed.nonhysteretic;
 }
 
-/// The end of the longest allowed cell, found by halving; `start` itself where not even the next float is
+/// An input between the two (low < high), near their middle; `high` when there is none.
+static double between(const search_t* search, double low, double high)
+{
+    const double middle = 0.5 * (low + high);
+    if (search->inputs == GRID_OF_INTEGERS) {
+        return floor(middle) > low ? floor(middle) : high;
+    }
+    const double rounded = (double)(float)middle;
+    return rounded > low && rounded < high ? rounded : (double)nextafterf((float)low, (float)high);
+}
+
+/// The end of the longest allowed cell, found by halving; `start` itself where not even the next input is
 /// one.
-static float longest_cell(const search_t* search, float start, float end)
+static double longest_cell(const search_t* search, double start, double end)
 {
     if (is_allowed(search, start, end)) {
         return end;
     }
-    float good = start;
-    float bad = end;
+    double good = start;
+    double bad = end;
     for (;;) {
-        float middle = (float)(0.5 * ((double)good + (double)bad));
-        if (!(middle > good && middle < bad)) {
-            middle = nextafterf(good, bad);
-        }
+        const double middle = between(search, good, bad);
         if (!(middle < bad)) {
             return good;
         }
@@ -58,22 +70,22 @@ static float longest_cell(const search_t* search, float start, float end)
 }
 
 /// Fewer knots than `limit`, or none.
-static grid_t walk(const search_t* search, float low, float high, size_t limit)
+static grid_t walk(const search_t* search, double low, double high, size_t limit)
 {
     size_t capacity = 64;
-    grid_t grid = {.num_knots = 1, .input = xmalloc(capacity * sizeof(float))};
+    grid_t grid = {.num_knots = 1, .input = xmalloc(capacity * sizeof(double))};
     cell_error_t largest = {0.0, 0.0};
-    float start = low;
+    double start = low;
     grid.input[0] = low;
     while (start < high) {
-        const float end = longest_cell(search, start, high);
+        const double end = longest_cell(search, start, high);
         if (!(end > start) || grid.num_knots + 1 >= limit) {
             grid_free(&grid);
             return grid;
         }
         if (grid.num_knots == capacity) {
             capacity *= 2;
-            grid.input = xrealloc(grid.input, capacity * sizeof(float));
+            grid.input = xrealloc(grid.input, capacity * sizeof(double));
         }
         const cell_error_t error = cell_error(search, start, end);
         largest.envelopes = fmax(largest.envelopes, error.envelopes);
@@ -85,15 +97,17 @@ static grid_t walk(const search_t* search, float low, float high, size_t limit)
     return grid;
 }
 
-grid_t grid_find(const model_t* model, float low, float high, double tolerance)
+grid_t grid_find(const model_t* model, grid_inputs_t inputs, double low, double high, double tolerance)
 {
     enum { NUM_SHARES = 16 };
-    search_t search = {.model = model};
+    search_t search = {.model = model, .inputs = inputs};
     for (size_t j = 0; j < model->num_plays; ++j) {
         search.total_weight += model->weight[j];
     }
     grid_t best = {0};
-    for (int share = 0; share <= NUM_SHARES; ++share) {
+    for (int i = 0; i <= NUM_SHARES; ++i) {
+        // Even shares first: they soon limit the walks that have next to nothing for one of the two.
+        const int share = (i + NUM_SHARES / 2) % (NUM_SHARES + 1);
         search.allowed.envelopes = tolerance * share / NUM_SHARES;
         search.allowed.nonhysteretic = tolerance - search.allowed.envelopes;
         const size_t limit = best.num_knots > 0 ? best.num_knots : HYST_MAX_KNOTS + 1;

@@ -11,6 +11,10 @@ have_header() {
     echo "#include <$1>" | "${CC:-cc}" -E - >/dev/null 2>&1
 }
 
+have_specs() { # have_specs COMPILER: whether it finds picolibc
+    have_command "$1" && "$1" --specs=picolibc.specs -E -x c /dev/null >/dev/null 2>&1
+}
+
 missing=""
 need() { # need WHAT-IS-MISSING APT DNF BREW
     missing="$missing $1"
@@ -41,6 +45,10 @@ check_tests() {
 check_target() {
     have_command arm-none-eabi-gcc || need arm-none-eabi-gcc gcc-arm-none-eabi arm-none-eabi-gcc-cs arm-none-eabi-gcc
     have_command qemu-system-arm || need qemu-system-arm qemu-system-arm qemu-system-arm qemu
+    have_command riscv64-unknown-elf-gcc || need riscv64-unknown-elf-gcc gcc-riscv64-unknown-elf "" ""
+    have_command qemu-system-riscv32 || need qemu-system-riscv32 qemu-system-misc qemu-system-riscv qemu
+    have_specs arm-none-eabi-gcc || need picolibc-for-Arm picolibc-arm-none-eabi "" ""
+    have_specs riscv64-unknown-elf-gcc || need picolibc-for-RISC-V picolibc-riscv64-unknown-elf "" ""
 }
 
 check_all() {

@@ -1,5 +1,6 @@
 #include "tabulate.h"
 #include "float_error.h"
+#include "float_lines.h"
 #include "grid.h"
 #include <float.h>
 #include <math.h>
@@ -22,21 +23,23 @@ static void store_plays(const model_t* model, tabulated_t* tabulated)
 {
     tabulated->radius = xcalloc(model->num_plays, sizeof(float));
     tabulated->weight = xcalloc(model->num_plays, sizeof(float));
+    tabulated->play = xcalloc(model->num_plays, sizeof(hyst_f32_play_t));
     for (size_t j = 0; j < model->num_plays; ++j) {
         tabulated->radius[j] = (float)model->radius[j];
         tabulated->weight[j] = (float)model->weight[j];
     }
     tabulated->model.num_plays = (uint32_t)model->num_plays;
-    tabulated->model.radius = tabulated->radius;
-    tabulated->model.weight = tabulated->weight;
+    tabulated->model.moment =
+        float_lines_loading(tabulated->radius, tabulated->weight, model->num_plays, tabulated->play);
+    tabulated->model.play = tabulated->play;
 }
 
 static void store_values(const model_t* model, const grid_t* grid, hyst_f32_knot_t* knot)
 {
     for (size_t k = 0; k < grid->num_knots; ++k) {
-        const double v = (double)grid->input[k];
+        const double v = grid->input[k];
         const double descending = curve_value(&model->descending, v);
-        knot[k].input = grid->input[k];
+        knot[k].input = (float)v;
         knot[k].descending = (float)descending;
         knot[k].ascending =
             (float)fmin(curve_value(&model->ascending, v), descending + 2.0 * model->radius[0]);
@@ -57,26 +60,22 @@ static void separate(hyst_f32_knot_t* knot, size_t num_knots)
     }
 }
 
-static float slope_between(float low, float low_value, float high, float high_value)
-{
-    return (float)(((double)high_value - (double)low_value) / ((double)high - (double)low));
-}
-
 static void store_slopes(hyst_f32_knot_t* knot, size_t num_knots)
 {
     for (size_t k = 0; k + 1 < num_knots; ++k) {
         const hyst_f32_knot_t* next = &knot[k + 1];
         const float v = knot[k].input;
-        knot[k].ascending_slope = slope_between(v, knot[k].ascending, next->input, next->ascending);
-        knot[k].descending_slope = slope_between(v, knot[k].descending, next->input, next->descending);
+        knot[k].ascending_slope = float_lines_slope(v, knot[k].ascending, next->input, next->ascending);
+        knot[k].descending_slope = float_lines_slope(v, knot[k].descending, next->input, next->descending);
         knot[k].nonhysteretic_slope =
-            slope_between(v, knot[k].nonhysteretic, next->input, next->nonhysteretic);
+            float_lines_slope(v, knot[k].nonhysteretic, next->input, next->nonhysteretic);
     }
 }
 
 static const char* store_table(const model_t* model, double table_error, tabulated_t* tabulated)
 {
-    grid_t grid = grid_find(model, tabulated->model.input_min, tabulated->model.input_max, table_error);
+    grid_t grid = grid_find(model, GRID_OF_FLOATS, (double)tabulated->model.input_min,
+                            (double)tabulated->model.input_max, table_error);
     if (grid.num_knots == 0) {
         return "no table of at most 65535 knots at float inputs is that close";
     }
@@ -119,7 +118,8 @@ const char* tabulate(const model_t* model, double table_error, tabulated_t* tabu
     prepared_t prepared = prepare(model);
     const char* fault = store(&prepared, table_error, tabulated);
     if (fault == NULL) {
-        tabulated->float_error = float_error(&prepared, &tabulated->model);
+        tabulated->float_error =
+            float_error(&prepared, &tabulated->model, tabulated->radius, tabulated->weight);
     } else {
         tabulated_free(tabulated);
     }
@@ -131,6 +131,7 @@ void tabulated_free(tabulated_t* tabulated)
 {
     free(tabulated->radius);
     free(tabulated->weight);
+    free(tabulated->play);
     free(tabulated->knot);
     *tabulated = (tabulated_t){0};
 }

@@ -10,6 +10,7 @@ typedef struct {
     hyst_f32_model_t model; ///< points into the arrays below
     float* radius;          ///< [num_plays], owned
     float* weight;          ///< [num_plays], owned
+    hyst_f32_play_t* play;  ///< [num_plays], owned: the two as the library reads them
     hyst_f32_knot_t* knot;  ///< [num_knots], owned, or NULL for a classical model
     double table_error;     ///< what the chords can put on the output, output units
     double float_error;     ///< what storing and computing in float can put on it besides

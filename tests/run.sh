@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh [--host-only]: builds and passes all tests: gcc, clang and sanitizers on this machine, then the firmware on an
-# emulated Cortex-M4F, bit for bit against this machine.
+# run.sh [--host-only]: builds and passes all tests: gcc, clang and sanitizers on this machine, then on all
+# target cores of ports/cores.txt under emulation, bit for bit against this machine.
 set -eu
 cd "$(dirname "$0")/.."
 target=yes
@@ -31,12 +31,16 @@ sh tests/get_unity.sh
 stage "layout (clang-format)"
 git ls-files '*.c' '*.h' ':!tests/golden' | xargs clang-format --dry-run -Werror
 
-# ctest runs the firmware under emulation among the others, unless told to leave the target out.
-[ $target = yes ] || export HYST_HOST_ONLY=1
 for preset in release clang sanitize; do
     stage "$preset"
     cmake --preset $preset >/dev/null
     cmake --build --preset $preset
-    ctest --preset $preset -j "$jobs"
+    HYST_HOST_ONLY=1 ctest --preset $preset -j "$jobs"
 done
-[ $target = yes ] || echo "skipped: everything on the emulated target (--host-only)"
+
+if [ $target = yes ]; then
+    stage "target cores under emulation"
+    sh tests/target/run.sh build/release/host_tools/hyst
+else
+    echo "skipped: target cores (--host-only)"
+fi

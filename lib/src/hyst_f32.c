@@ -1,23 +1,10 @@
-#include "hyst_f32_internal.h"
+#include "hyst_f32_segments.h"
 
-uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, const uint32_t guess, const float v)
+uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t low, uint32_t high, const float v)
 {
-    if (model->num_knots == 0) {
-        return 0;
-    }
-    const hyst_f32_knot_t* knot = model->knot;
-    uint32_t low = guess;
-    uint32_t high = guess;
-    if (v < knot[guess].input) {
-        low = v < knot[guess - 1].input ? 0 : guess - 1;
-        high = guess - 1;
-    } else if (!(v < knot[guess + 1].input) && guess + 2 < model->num_knots) {
-        low = guess + 1;
-        high = v < knot[guess + 2].input ? guess + 1 : model->num_knots - 2;
-    }
     while (low < high) {
         const uint32_t middle = high - (high - low) / 2;
-        if (v < knot[middle].input) {
+        if (v < model->knot[middle].input) {
             high = middle - 1;
         } else {
             low = middle;
@@ -29,37 +16,42 @@ uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, const uint32_t guess,
 void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
 {
     state->input = input;
-    state->cell = hyst_f32_find_cell(model, 0, input);
-    const float offset = model->constant + hyst_f32_nonhysteretic(model, state->cell, input);
-    // An envelope below every reach moves no play.
-    state->output = hyst_f32_respond(model, state->memory, NULL, -FLT_MAX, true, offset);
+    state->cell = hyst_f32_find_cell(model, 0, hyst_f32_last_cell(model), input);
+    state->output = hyst_f32_offset(model, state->cell, input) + state->plays;
 }
 
-void hyst_f32_saturate_negative(const hyst_f32_model_t* model, hyst_f32_state_t* state)
+void hyst_f32_saturate(const hyst_f32_model_t* model, hyst_f32_state_t* state, const bool rising)
 {
-    const float envelope = hyst_f32_envelope(model, 0, model->input_min, false);
-    for (uint32_t j = 0; j < model->num_plays; ++j) {
-        state->memory[j] = hyst_f32_pushed(envelope, model->radius[j], false);
-    }
-    hyst_f32_place(model, state, model->input_min);
+    hyst_f32_segment_t* outermost = state->memory;
+    const float input = rising ? model->input_max : model->input_min;
+    const uint32_t cell = rising ? hyst_f32_last_cell(model) : 0;
+    outermost->level = hyst_f32_sign(rising) * hyst_f32_envelope(model, cell, input, rising);
+    outermost->last = (uint16_t)(model->num_plays - 1);
+    outermost->rising = rising ? 1 : 0;
+    hyst_f32_sum_up(model, state->memory, 0);
+    state->front = 0;
+    state->plays = hyst_f32_sign(rising) * outermost->sum[rising];
+    hyst_f32_place(model, state, input);
 }
 
-float hyst_f32_move(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float v)
+/// A move of any kind; returns the plays' part of the output in its direction.
+static float turn(const hyst_f32_model_t* model, hyst_f32_state_t* state, const bool rising,
+                  const float ahead, const float plays)
 {
-    const bool rising = v > state->input;
-    if (!rising && !(v < state->input)) {
-        return state->output;
+    hyst_f32_front_t front;
+    if (!hyst_f32_meet(model, state, rising, ahead, &front)) {
+        return plays;
     }
-    const uint32_t cell = hyst_f32_find_cell(model, state->cell, v);
-    const float offset = model->constant + hyst_f32_nonhysteretic(model, cell, v);
-    const float envelope = hyst_f32_envelope(model, cell, v, rising);
-    const float output = rising
-                             ? hyst_f32_respond(model, state->memory, state->memory, envelope, true, offset)
-                             : hyst_f32_respond(model, state->memory, state->memory, envelope, false, offset);
-    state->input = v;
-    state->output = output;
-    state->cell = cell;
-    return output;
+    hyst_f32_segment_t* segment = &state->memory[front.index];
+    if (front.index > state->front) {
+        segment[-1].sum[rising] = front.end;
+    }
+    segment->level = ahead;
+    segment->sum[rising] = front.sum;
+    segment->last = (uint16_t)front.last;
+    segment->rising = rising ? 1 : 0;
+    state->front = front.index;
+    return front.sum;
 }
 
 static void count(uint32_t* counter)
@@ -69,15 +61,123 @@ static void count(uint32_t* counter)
     }
 }
 
-float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
+/// Moves the state to v, finite and in `cell`, whatever the move is.
+static float move(const hyst_f32_model_t* model, hyst_f32_state_t* state, const uint32_t cell, const float v)
+{
+    const bool rising = v > state->input;
+    if (!rising && !(v < state->input)) {
+        return state->output;
+    }
+    const float sign = hyst_f32_sign(rising);
+    const float ahead = sign * hyst_f32_envelope(model, cell, v, rising);
+    const float present = sign * state->plays;
+    // Rounding does not move the plays' part against the input.
+    state->plays = sign * hyst_f32_larger(turn(model, state, rising, ahead, present), present);
+    state->input = v;
+    state->cell = cell;
+    state->output = hyst_f32_offset(model, cell, v) + state->plays;
+    return state->output;
+}
+
+/// A step of any input: one that is no number, out of range, in another cell, or one that takes a segment.
+static float step_anywhere(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
 {
     if (hyst_f32_is_nan(input)) {
         count(&state->invalid_inputs);
         return state->output;
     }
+    float v = input;
     if (input < model->input_min || input > model->input_max) {
         count(&state->clamped_inputs);
-        return hyst_f32_move(model, state, hyst_f32_limit(input, model->input_min, model->input_max));
+        v = hyst_f32_limit(input, model->input_min, model->input_max);
     }
-    return hyst_f32_move(model, state, input);
+    const bool rising = v > state->input;
+    const uint32_t cell = hyst_f32_find_cell(model, rising ? state->cell : 0,
+                                             rising ? hyst_f32_last_cell(model) : state->cell, v);
+    return move(model, state, cell, v);
+}
+
+/// Whether the input is in the cell, or in the next one in the move's direction, which *cell then is.
+static inline bool is_near(const hyst_f32_model_t* model, uint32_t* cell, const bool rising,
+                           const float input)
+{
+    const hyst_f32_knot_t* knot = &model->knot[*cell];
+    if (rising) {
+        if (input < knot[1].input) {
+            return true;
+        }
+        ++*cell;
+        return *cell + 1 < model->num_knots && input < knot[2].input;
+    }
+    if (input >= knot->input) {
+        return true;
+    }
+    --*cell;
+    return *cell + 1 > 0 && input >= knot[-1].input;
+}
+
+/// The move that goes on: the front's plays move along, perhaps with the next few, and no segment is taken,
+/// or no play moves at all. Returns the plays' part in the direction of the move, `present` where none moves;
+/// false otherwise.
+static inline bool extend(const hyst_f32_model_t* model, hyst_f32_state_t* state, const bool rising,
+                          const float ahead, float* plays)
+{
+    hyst_f32_segment_t* top = &state->memory[state->front];
+    if (!hyst_f32_is_along(top, rising)) {
+        return !(ahead + top->level > model->play[0].opening);
+    }
+    if (ahead < top->level) {
+        return true;
+    }
+    float sum;
+    if (state->front == 0) {
+        sum = hyst_f32_over_none(model, ahead);
+    } else {
+        const hyst_f32_segment_t* kept = top - 1;
+        const bool along = hyst_f32_is_along(kept, rising);
+        const float x = hyst_f32_beyond(kept, along, ahead);
+        uint32_t last = top->last;
+        if (hyst_f32_is_taken(model->play, kept, along, x)) {
+            return false;
+        }
+        if (!along && x > model->play[last + 1].opening) {
+            // No segment is taken, so that the next opening is there.
+            ++last;
+            if (x > model->play[last + 1].opening) {
+                last = hyst_f32_last_moved(model->play, last + 1, kept->last - 1u, x);
+            }
+            top->last = (uint16_t)last;
+        }
+        sum = hyst_f32_over(model->play, kept, along, kept->sum[rising], last, x);
+    }
+    top->level = ahead;
+    top->sum[rising] = sum;
+    // Rounding does not move the plays' part against the input.
+    *plays = hyst_f32_larger(sum, *plays);
+    return true;
+}
+
+/// The short way for what a sample mostly is; step_anywhere gives the same bits.
+float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
+{
+    uint32_t cell = state->cell;
+    const bool rising = input > state->input;
+    if (model->num_knots == 0 || !is_near(model, &cell, rising, input)) {
+        return step_anywhere(model, state, input);
+    }
+    const hyst_f32_knot_t* knot = &model->knot[cell];
+    const float along = input - knot->input;
+    const float ahead = rising ? knot->ascending + knot->ascending_slope * along
+                               : -(knot->descending + knot->descending_slope * along);
+    float plays = rising ? state->plays : -state->plays;
+    if (!extend(model, state, rising, ahead, &plays)) {
+        return move(model, state, cell, input);
+    }
+    plays = rising ? plays : -plays;
+    const float output = model->constant + (knot->nonhysteretic + knot->nonhysteretic_slope * along) + plays;
+    state->plays = plays;
+    state->input = input;
+    state->cell = cell;
+    state->output = output;
+    return output;
 }

@@ -43,17 +43,8 @@ static inline float hyst_f32_limit(const float x, const float low, const float h
     return x < high ? x : high;
 }
 
-/// A curve in the cell that begins at `knot`: exact at both knots, never above the next knot's value.
-static inline float hyst_f32_line(const hyst_f32_knot_t* knot, const float v, const float value,
-                                  const float slope, const float next_value)
-{
-    if (!(v < knot[1].input)) {
-        return next_value;
-    }
-    const float y = value + slope * (v - knot->input);
-    return y < next_value ? y : next_value;
-}
-
+/// An envelope at v. Slopes are rounded so that no line ends above the next knot's value (init checks it):
+/// the envelope does not fall from one cell to the next.
 static inline float hyst_f32_envelope(const hyst_f32_model_t* model, const uint32_t cell, const float v,
                                       const bool rising)
 {
@@ -61,52 +52,24 @@ static inline float hyst_f32_envelope(const hyst_f32_model_t* model, const uint3
         return v;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    return rising ? hyst_f32_line(knot, v, knot->ascending, knot->ascending_slope, knot[1].ascending)
-                  : hyst_f32_line(knot, v, knot->descending, knot->descending_slope, knot[1].descending);
+    return rising ? knot->ascending + knot->ascending_slope * (v - knot->input)
+                  : knot->descending + knot->descending_slope * (v - knot->input);
 }
 
-static inline float hyst_f32_nonhysteretic(const hyst_f32_model_t* model, const uint32_t cell, const float v)
+/// The constant and D at v, likewise.
+static inline float hyst_f32_offset(const hyst_f32_model_t* model, const uint32_t cell, const float v)
 {
     if (model->num_knots == 0) {
-        return model->nonhysteretic_slope * v;
+        return model->constant + model->nonhysteretic_slope * v;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    return hyst_f32_line(knot, v, knot->nonhysteretic, knot->nonhysteretic_slope, knot[1].nonhysteretic);
+    return model->constant + (knot->nonhysteretic + knot->nonhysteretic_slope * (v - knot->input));
 }
 
 /// Where a play goes that `envelope` pushes.
 static inline float hyst_f32_pushed(const float envelope, const float radius, const bool rising)
 {
     return rising ? envelope - radius : envelope + radius;
-}
-
-/// Whether the push moves a play in state w.
-static inline bool hyst_f32_moves(const float pushed, const float w, const bool rising)
-{
-    return rising ? pushed > w : pushed < w;
-}
-
-/// Eqs. (6) and (8): offset + (((p_0 w_0 + p_1 w_1) + p_2 w_2) + ...) after the plays in `memory` met
-/// `envelope`. The moved plays are stored in `store`, which may be `memory`, or nowhere when NULL.
-static inline float hyst_f32_respond(const hyst_f32_model_t* model, const float* memory, float* store,
-                                     const float envelope, const bool rising, const float offset)
-{
-    const float* radius = model->radius;
-    const float* weight = model->weight;
-    const uint32_t num_plays = model->num_plays;
-    float sum = 0.0f;
-    for (uint32_t j = 0; j < num_plays; ++j) {
-        float w = memory[j];
-        const float pushed = hyst_f32_pushed(envelope, radius[j], rising);
-        if (hyst_f32_moves(pushed, w, rising)) {
-            w = pushed;
-            if (store != NULL) {
-                store[j] = w;
-            }
-        }
-        sum += weight[j] * w;
-    }
-    return offset + sum;
 }
 
 /// The largest magnitude of either envelope over the range.
@@ -128,17 +91,21 @@ static inline float hyst_f32_middle(const hyst_f32_model_t* model)
     return model->input_min + 0.5f * (model->input_max - model->input_min);
 }
 
-/// The cell k with knot[k].input <= v < knot[k + 1].input, the last one for input_max; `guess` is where to
-/// look first. 0 for a model without knots. v within the range.
-uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t guess, float v);
+/// The cell k with knot[k].input <= v < knot[k + 1].input, the last one for input_max, of cells low ... high,
+/// which hold v. 0 for a model without knots.
+uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t low, uint32_t high, float v);
 
-/// Puts the state at `input` (within the range) with the memory as it is.
+/// The cell of input_max.
+static inline uint32_t hyst_f32_last_cell(const hyst_f32_model_t* model)
+{
+    return model->num_knots == 0 ? 0 : model->num_knots - 2;
+}
+
+/// Puts the state at `input` (within the range) with the memory and the plays' part of the output as they
+/// are.
 void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
 
-/// Moves the state to v, finite and within the range; returns the output.
-float hyst_f32_move(const hyst_f32_model_t* model, hyst_f32_state_t* state, float v);
-
-/// Negative saturation at input_min.
-void hyst_f32_saturate_negative(const hyst_f32_model_t* model, hyst_f32_state_t* state);
+/// Positive saturation at input_max, or negative at input_min.
+void hyst_f32_saturate(const hyst_f32_model_t* model, hyst_f32_state_t* state, bool rising);
 
 #endif

@@ -1,4 +1,4 @@
-#include "hyst_f32_internal.h"
+#include "hyst_f32_segments.h"
 
 /// Both envelopes at the ends of an alternation about the middle: ascending at its top, descending at its
 /// bottom.
@@ -16,6 +16,7 @@ typedef struct {
     bool at_top;         ///< the alternation has reached input_max
     bool at_bottom;      ///< and input_min
     span_t span;
+    span_t inner; ///< the span before the last widening
 } walk_t;
 
 static float opening(const span_t span)
@@ -59,46 +60,49 @@ static void widen(walk_t* walk)
     }
 }
 
-/// Play r follows the alternation until its amplitude has shrunk so far that ascending(top) -
-/// descending(bottom) = 2 r, and stays at ascending(top) - r. That amplitude grows with r, so one walk
-/// outward serves all plays; between knots both envelopes are linear in the amplitude. A play that the full
-/// range does not move gets the middle of its strip there.
+/// The extreme that play j, of radius r, was left by: ascending(top) at the amplitude where ascending(top) -
+/// descending(bottom) = 2 r, found by walking outward; between knots both envelopes are linear in the
+/// amplitude. A play that the full range does not move gets the middle of its strip there.
+static float extreme(walk_t* walk, const float two_r)
+{
+    while (!(walk->at_top && walk->at_bottom) && opening(walk->span) < two_r) {
+        walk->inner = walk->span;
+        widen(walk);
+    }
+    const span_t inner = walk->inner;
+    const span_t outer = walk->span;
+    const float gap = opening(outer) - opening(inner);
+    if (opening(outer) < two_r) {
+        return 0.5f * (outer.ascending + outer.descending + two_r);
+    }
+    const float part = gap > 0.0f ? hyst_f32_limit((two_r - opening(inner)) / gap, 0.0f, 1.0f) : 0.0f;
+    return inner.ascending + part * (outer.ascending - inner.ascending);
+}
+
+/// Play r follows the alternation until its amplitude has shrunk so far that it no longer moves, and stays at
+/// ascending(top) - r. That amplitude grows with r, so one walk outward serves all plays. As a stack: a
+/// segment of its own for each play, all left by a rising input, the widest outermost.
 static void demagnetise(const hyst_f32_model_t* model, hyst_f32_state_t* state)
 {
     const float middle = hyst_f32_middle(model);
-    const uint32_t cell = hyst_f32_find_cell(model, 0, middle);
-    walk_t walk = {model, middle, cell, cell, false, false, {0.0f, 0.0f}};
+    const uint32_t cell = hyst_f32_find_cell(model, 0, hyst_f32_last_cell(model), middle);
+    walk_t walk = {model, middle, cell, cell, false, false, {0.0f, 0.0f}, {0.0f, 0.0f}};
     walk.span.ascending = hyst_f32_envelope(model, cell, middle, true);
     walk.span.descending = hyst_f32_envelope(model, cell, middle, false);
-    span_t inner = walk.span;
-    for (uint32_t j = 0; j < model->num_plays; ++j) {
-        const float radius = model->radius[j];
-        while (!(walk.at_top && walk.at_bottom) && opening(walk.span) < 2.0f * radius) {
-            inner = walk.span;
-            widen(&walk);
-        }
-        const span_t outer = walk.span;
-        const float gap = opening(outer) - opening(inner);
-        if (opening(outer) < 2.0f * radius) {
-            state->memory[j] = 0.5f * outer.ascending + 0.5f * outer.descending;
-        } else if (gap > 0.0f) {
-            const float part = hyst_f32_limit((2.0f * radius - opening(inner)) / gap, 0.0f, 1.0f);
-            state->memory[j] = inner.ascending + part * (outer.ascending - inner.ascending) - radius;
-        } else {
-            state->memory[j] = inner.ascending - radius;
-        }
+    walk.inner = walk.span;
+    const uint32_t front = model->num_plays - 1;
+    float least = -FLT_MAX;
+    for (uint32_t j = 0; j <= front; ++j) {
+        hyst_f32_segment_t* segment = &state->memory[front - j];
+        least = hyst_f32_larger(least, extreme(&walk, model->play[j].opening));
+        segment->level = least;
+        segment->last = (uint16_t)j;
+        segment->rising = 1;
     }
+    state->front = front;
+    hyst_f32_sum_up(model, state->memory, front);
+    state->plays = state->memory[front].sum[1];
     hyst_f32_place(model, state, middle);
-}
-
-static void saturate_positive(const hyst_f32_model_t* model, hyst_f32_state_t* state)
-{
-    const uint32_t last_cell = model->num_knots == 0 ? 0 : model->num_knots - 2;
-    const float envelope = hyst_f32_envelope(model, last_cell, model->input_max, true);
-    for (uint32_t j = 0; j < model->num_plays; ++j) {
-        state->memory[j] = hyst_f32_pushed(envelope, model->radius[j], true);
-    }
-    hyst_f32_place(model, state, model->input_max);
 }
 
 float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, const hyst_start_t start,
@@ -106,14 +110,14 @@ float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, con
 {
     switch (start) {
     case HYST_START_POSITIVE_SATURATION:
-        saturate_positive(model, state);
+        hyst_f32_saturate(model, state, true);
         break;
     case HYST_START_DEMAGNETISED:
         demagnetise(model, state);
         break;
     case HYST_START_NEGATIVE_SATURATION:
     default:
-        hyst_f32_saturate_negative(model, state);
+        hyst_f32_saturate(model, state, false);
         break;
     }
     return hyst_f32_step(model, state, hyst_f32_is_nan(input) ? hyst_f32_middle(model) : input);

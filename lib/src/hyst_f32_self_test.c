@@ -19,7 +19,7 @@ static uint32_t to_bits(const float value)
 
 static void start_over(const hyst_f32_model_t* model, hyst_f32_state_t* state)
 {
-    hyst_f32_saturate_negative(model, state);
+    hyst_f32_saturate(model, state, false);
     state->invalid_inputs = 0;
     state->clamped_inputs = 0;
 }

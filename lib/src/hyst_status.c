@@ -33,6 +33,16 @@ const char* hyst_status_text(const hyst_status_t status)
         return "the snapshot holds no state this model can be in";
     case HYST_STATUS_SELF_TEST:
         return "a golden vector came out with other bits than on the host";
+    case HYST_STATUS_SNAPSHOT_FORMAT:
+        return "no snapshot, or one of another layout, scalar or length";
+    case HYST_STATUS_SNAPSHOT_MODEL:
+        return "the snapshot was taken of another model";
+    case HYST_STATUS_SNAPSHOT_TORN:
+        return "the snapshot's checksum is wrong: it is torn or damaged";
+    case HYST_STATUS_CYCLES:
+        return "the number of homing cycles is 0 or above HYST_MAX_HOMING_CYCLES";
+    case HYST_STATUS_LOADING:
+        return "the loading curve or the moment does not follow from the radii and weights";
     }
     return "unknown status";
 }

@@ -8,7 +8,8 @@ void port_print(const char* text);
 
 /// Starts counting executed instructions.
 void port_count_start(void);
-/// Instructions since port_count_start, to within one tick of the counter; 0 where they cannot be counted.
+/// Instructions since port_count_start, to within one tick of the counter; 0 where they cannot be counted,
+/// UINT32_MAX when there were more than the counter holds (500 million on a Cortex-M).
 uint32_t port_count_instructions(void);
 
 #endif

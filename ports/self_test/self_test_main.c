@@ -9,7 +9,7 @@
 
 enum { NUM_FORWARD = 20000, NUM_INVERSE = 2000, NUM_TIMED = 4096 };
 
-static float memory[TESTED_MODEL_NUM_PLAYS];
+static hyst_f32_segment_t memory[TESTED_MODEL_NUM_PLAYS];
 static hyst_f32_state_t state;
 static float timed_input[NUM_TIMED];
 static float timed_wanted[NUM_TIMED];
@@ -76,7 +76,7 @@ static float larger(const float a, const float b)
 }
 
 /// The inverse's rounding, coarser than it is derived for in the library's tests: with u = FLT_EPSILON / 2 an
-/// output is off by (num_plays + 12) u of the sum of its terms' largest magnitudes, a round trip by 4 of
+/// output is off by (11 num_plays + 20) u of the sum of its terms' largest magnitudes, a round trip by 4 of
 /// that, and the input by 10 u of its magnitude and width, times the steepest slope.
 static float round_trip_bound(void)
 {
@@ -96,15 +96,13 @@ static float round_trip_bound(void)
             nonhysteretic_slope = larger(nonhysteretic_slope, knot->nonhysteretic_slope);
         }
     }
-    float terms = magnitude(TESTED_MODEL.constant) + nonhysteretic;
-    float weights = 0.0f;
-    for (uint32_t j = 0; j < TESTED_MODEL.num_plays; ++j) {
-        terms += TESTED_MODEL.weight[j] * (envelope + TESTED_MODEL.radius[j]);
-        weights += TESTED_MODEL.weight[j];
-    }
+    const hyst_f32_play_t* last = &TESTED_MODEL.play[TESTED_MODEL.num_plays - 1];
+    const float weights = last->slope;
+    const float terms =
+        magnitude(TESTED_MODEL.constant) + nonhysteretic + weights * (envelope + last->opening);
     const float input = larger(magnitude(TESTED_MODEL.input_min), magnitude(TESTED_MODEL.input_max)) +
                         (TESTED_MODEL.input_max - TESTED_MODEL.input_min);
-    return FLT_EPSILON * (2.0f * ((float)TESTED_MODEL.num_plays + 12.0f) * terms +
+    return FLT_EPSILON * (2.0f * (11.0f * (float)TESTED_MODEL.num_plays + 20.0f) * terms +
                           5.0f * (weights * slope + nonhysteretic_slope) * input);
 }
 
@@ -146,7 +144,7 @@ static void print_checksum(void)
         sum = checksum_add(sum, float_bits(hyst_f32_step(&TESTED_MODEL, &state, input_at(part))));
     }
     for (uint32_t i = 0; i < NUM_INVERSE; ++i) {
-        const hyst_f32_inverse_t reach = hyst_f32_inverse(&TESTED_MODEL, &state, state.output);
+        const hyst_f32_reach_t reach = hyst_f32_reachable(&TESTED_MODEL, &state);
         const float wanted = within(reach.reachable_min, reach.reachable_max, signal_random(&seed));
         const hyst_f32_inverse_t found = hyst_f32_inverse(&TESTED_MODEL, &state, wanted);
         sum = checksum_add(sum, float_bits(found.input));

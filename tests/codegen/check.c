@@ -1,4 +1,4 @@
-// Compiled as C and as C++ against a generated header (symbol `subject`) and lib/:
+// Compiled as C and as C++ against a generated header (symbol `subject`) of the scalar SCALAR, and lib/:
 //   check            runs the self-test
 //   check inputs     prints a record to simulate
 //   check compare    reads the simulated record from stdin and compares it with the firmware's outputs
@@ -8,10 +8,37 @@
 
 enum { NUM_SAMPLES = 4000 };
 
-static float memory[SUBJECT_NUM_PLAYS];
-static hyst_f32_state_t state;
+#define JOIN(prefix, scalar, name)   prefix##scalar##_##name
+#define EXPAND(prefix, scalar, name) JOIN(prefix, scalar, name)
+#define HYST(name)                   EXPAND(hyst_, SCALAR, name)
 
-static float sample(unsigned i)
+#ifdef SCALAR_f32
+typedef float real_t;
+static const double rounding_error = (double)SUBJECT_FLOAT_ERROR;
+#else
+#ifdef SCALAR_q31
+typedef double real_t;
+#else
+typedef float real_t;
+#endif
+static const double rounding_error = (double)SUBJECT_QUANTIZATION_ERROR;
+#endif
+
+static HYST(segment_t) memory[SUBJECT_NUM_PLAYS];
+static HYST(state_t) state;
+
+/// In units, in and out.
+static double output_at(real_t input)
+{
+#ifdef SCALAR_f32
+    return (double)hyst_f32_step(&subject_model, &state, input);
+#else
+    return (double)subject_output_to_units(
+        HYST(step)(&subject_model, &state, subject_input_from_units(input)));
+#endif
+}
+
+static real_t sample(unsigned i)
 {
     // A linear congruential walk: large jumps, small steps, and the range's ends.
     static unsigned long seed = 1;
@@ -24,7 +51,7 @@ static float sample(unsigned i)
     }
     position = position < 0.0f ? 0.0f : position;
     position = position > 1.0f ? 1.0f : position;
-    const float input = SUBJECT_INPUT_MIN + position * (SUBJECT_INPUT_MAX - SUBJECT_INPUT_MIN);
+    const real_t input = SUBJECT_INPUT_MIN + position * (SUBJECT_INPUT_MAX - SUBJECT_INPUT_MIN);
     return input < SUBJECT_INPUT_MAX ? input : SUBJECT_INPUT_MAX;
 }
 
@@ -32,7 +59,7 @@ static int print_inputs(void)
 {
     puts("time,input");
     for (unsigned i = 0; i < NUM_SAMPLES; ++i) {
-        printf("%u,%.9g\n", i, (double)sample(i));
+        printf("%u,%.17g\n", i, (double)sample(i));
     }
     return 0;
 }
@@ -42,7 +69,7 @@ static int compare(void)
     char line[200];
     double largest = 0.0;
     // The record holds 15 digits.
-    const double allowed = (double)SUBJECT_TABLE_ERROR + (double)SUBJECT_FLOAT_ERROR + 1e-12;
+    const double allowed = (double)SUBJECT_TABLE_ERROR + rounding_error + 1e-12;
     if (fgets(line, sizeof line, stdin) == NULL || strcmp(line, "time,input,output\n") != 0) {
         return 1;
     }
@@ -53,7 +80,7 @@ static int compare(void)
         if (scanf("%lf,%lf,%lf", &time, &input, &output) != 3) {
             return 1;
         }
-        const double difference = (double)hyst_f32_step(&subject_model, &state, sample(i)) - output;
+        const double difference = output_at(sample(i)) - output;
         const double magnitude = difference < 0.0 ? -difference : difference;
         largest = magnitude > largest ? magnitude : largest;
         if (!(magnitude <= allowed)) {
@@ -67,7 +94,7 @@ static int compare(void)
 
 int main(int argc, char** argv)
 {
-    const hyst_status_t status = hyst_f32_init(&subject_model, &state, memory, SUBJECT_NUM_PLAYS);
+    const hyst_status_t status = HYST(init)(&subject_model, &state, memory, SUBJECT_NUM_PLAYS);
     if (status != HYST_STATUS_OK) {
         puts(hyst_status_text(status));
         return 1;
@@ -82,5 +109,5 @@ int main(int argc, char** argv)
         puts("SUBJECT_RAM_BYTES is wrong");
         return 1;
     }
-    return (int)hyst_f32_self_test(&subject_model, &state, &subject_golden);
+    return (int)HYST(self_test)(&subject_model, &state, &subject_golden);
 }

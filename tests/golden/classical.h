@@ -2,7 +2,7 @@
  * Regenerate: hyst emit MODEL -o HEADER --scalar f32 --symbol classical --table-error 0.0028068800000000003
  *
  * Use:
- *   static float memory[CLASSICAL_NUM_PLAYS];
+ *   static hyst_f32_segment_t memory[CLASSICAL_NUM_PLAYS];
  *   static hyst_f32_state_t state;
  *   if (hyst_f32_init(&classical_model, &state, memory, CLASSICAL_NUM_PLAYS) != HYST_STATUS_OK) { stop(); }
  *   float output = hyst_f32_step(&classical_model, &state, input);
@@ -12,7 +12,7 @@
 
 #include "hyst/hyst_f32.h"
 
-#if HYST_MODEL_FORMAT != 1
+#if HYST_MODEL_FORMAT != 2
 #error "Regenerate this header: hyst emit of this library's version writes another format"
 #endif
 
@@ -33,32 +33,32 @@
 #define CLASSICAL_INPUT_MAX 120.0f /* input units */
 #define CLASSICAL_NUM_PLAYS 5U /* play operators */
 #define CLASSICAL_NUM_KNOTS 0U /* knots of the table of curves */
-#define CLASSICAL_RAM_BYTES 44U /* state and memory, 32-bit target */
-#define CLASSICAL_FLASH_BYTES 80U /* model and arrays, 32-bit target */
+#define CLASSICAL_RAM_BYTES 112U /* state and memory, 32-bit target */
+#define CLASSICAL_FLASH_BYTES 100U /* model and arrays, 32-bit target */
 #define CLASSICAL_GOLDEN_FLASH_BYTES 1556U /* golden vectors, only where they are used */
 #define CLASSICAL_TABLE_ERROR 0.0f /* output units: bound on what the tables change */
-#define CLASSICAL_FLOAT_ERROR 1.08268578e-05f /* output units: bound on what rounding to float changes */
+#define CLASSICAL_FLOAT_ERROR 7.71450868e-05f /* output units: bound on what rounding to float changes */
 #define CLASSICAL_FIT_ERROR 0.0125000002f /* output units: RMS misfit on the record it was identified from */
 
-/* [CLASSICAL_NUM_PLAYS] radii, envelope units */
-static const float classical_radius[] = {
-    0.0f, 2.4000001f, 7.80000019f, 17.2000008f, 79.0f,
-};
-/* [CLASSICAL_NUM_PLAYS] weights per envelope unit, in µm */
-static const float classical_weight[] = {
-    0.0549999997f, 0.0350000001f, 0.0f, 0.0154999997f, 0.00999999978f,
+/* [CLASSICAL_NUM_PLAYS] plays by radius and their loading curve, in µm */
+static const hyst_f32_play_t classical_play[] = {
+    {.opening = 0.0f, .loading = 0.0f, .slope = 0.0549999997f},
+    {.opening = 4.80000019f, .loading = 0.263999999f, .slope = 0.0900000036f},
+    {.opening = 15.6000004f, .loading = 1.23600006f, .slope = 0.0900000036f},
+    {.opening = 34.4000015f, .loading = 2.92800021f, .slope = 0.105499998f},
+    {.opening = 158.0f, .loading = 15.9678001f, .slope = 0.115500003f},
 };
 
 static const hyst_f32_model_t classical_model = {
-    .format = 1U,
+    .format = 2U,
     .num_plays = CLASSICAL_NUM_PLAYS,
     .num_knots = CLASSICAL_NUM_KNOTS,
     .input_min = -20.0f,
     .input_max = 120.0f,
     .constant = 2.94225001f,
     .nonhysteretic_slope = 0.100000001f,
-    .radius = classical_radius,
-    .weight = classical_weight,
+    .moment = 1.14059997f,
+    .play = classical_play,
     .knot = NULL,
 };
 
@@ -81,17 +81,17 @@ static const uint32_t classical_golden_input[] = {
 /* [CLASSICAL_GOLDEN_STEPS] the outputs they give, float bits */
 static const uint32_t classical_golden_output[] = {
     0xbe689a00U, 0x40723afcU, 0x4101d182U, 0x414a2786U, 0x41893ec6U, 0x41ad69c8U, 0x41d194caU, 0x41debbb3U,
-    0x41d56fecU, 0x41b58468U, 0x4193c96cU, 0x4162868eU, 0x411d7a44U, 0x40b0dbf4U, 0x3f9b0d84U, 0xbe689a00U,
-    0x418e2d5dU, 0x41debbb3U, 0x4125c36cU, 0x3fbfe0deU, 0x4186637aU, 0x41c4c56aU, 0x413378a9U, 0x408b5b24U,
-    0x41805b6aU, 0x41b0aa88U, 0x413e1636U, 0x40d2202aU, 0x41775f62U, 0x41a118caU, 0x41464eb0U, 0x410476ffU,
-    0x41702372U, 0x41950a3aU, 0x414c089fU, 0x4119af58U, 0x416c1f80U, 0x418bb3feU, 0x414f2ee7U, 0x412a1e28U,
-    0x416959f8U, 0x4184bd29U, 0x4152279eU, 0x4135e231U, 0x41663ecbU, 0x417f1fbbU, 0x4154e360U, 0x413efeb6U,
-    0x4163d702U, 0x41771b1cU, 0x41570145U, 0x41460d04U, 0x4161fa24U, 0x4170e591U, 0x4158a4e9U, 0x414b83d1U,
-    0x416088dcU, 0x416c169eU, 0x4159e9e0U, 0x414fbf0cU, 0x415f6ae3U, 0x41685d60U, 0x415ae589U, 0x415305e7U,
-    0x415e9f18U, 0x41657b2eU, 0x415b464bU, 0x41558f83U, 0x415e8adaU, 0x41633f87U, 0x415b581cU, 0x41577e02U,
-    0x415e729eU, 0x4161d663U, 0x415bb772U, 0x4158bbd1U, 0x415e1eb8U, 0x4160beb8U, 0x415c0148U, 0x4159b1ecU,
-    0x4159b1ecU, 0x4153f9deU, 0x416873a2U, 0x414e2f65U, 0x416fb0b8U, 0x41452309U, 0x417b002eU, 0x4136ffb8U,
-    0x4186562aU, 0x41202834U, 0x41952231U, 0x40f5a640U, 0x41ac775dU, 0x4080fc65U, 0x41d0ec71U, 0xbe689a00U,
+    0x41d56fecU, 0x41b58467U, 0x4193c96cU, 0x4162868eU, 0x411d7a44U, 0x40b0dbf4U, 0x3f9b0d84U, 0xbe689a00U,
+    0x418e2d5cU, 0x41debbb3U, 0x4125c36cU, 0x3fbfe0deU, 0x4186637aU, 0x41c4c56aU, 0x413378a8U, 0x408b5b24U,
+    0x41805b6aU, 0x41b0aa88U, 0x413e1636U, 0x40d2202aU, 0x41775f61U, 0x41a118caU, 0x41464eafU, 0x410476ffU,
+    0x41702371U, 0x41950a3aU, 0x414c089fU, 0x4119af58U, 0x416c1f80U, 0x418bb3feU, 0x414f2ee6U, 0x412a1e28U,
+    0x416959f8U, 0x4184bd28U, 0x4152279eU, 0x4135e230U, 0x41663ecaU, 0x417f1fbaU, 0x4154e360U, 0x413efeb6U,
+    0x4163d700U, 0x41771b1cU, 0x41570145U, 0x41460d04U, 0x4161fa24U, 0x4170e590U, 0x4158a4e8U, 0x414b83d0U,
+    0x416088dcU, 0x416c169eU, 0x4159e9e0U, 0x414fbf0cU, 0x415f6ae2U, 0x41685d60U, 0x415ae589U, 0x415305e7U,
+    0x415e9f17U, 0x41657b2eU, 0x415b464aU, 0x41558f82U, 0x415e8ad9U, 0x41633f86U, 0x415b581cU, 0x41577e02U,
+    0x415e729eU, 0x4161d662U, 0x415bb772U, 0x4158bbd1U, 0x415e1eb7U, 0x4160beb6U, 0x415c0147U, 0x4159b1ecU,
+    0x4159b1ecU, 0x4153f9deU, 0x416873a1U, 0x414e2f65U, 0x416fb0b8U, 0x41452308U, 0x417b002cU, 0x4136ffb7U,
+    0x41865629U, 0x41202833U, 0x41952231U, 0x40f5a640U, 0x41ac775dU, 0x4080fc65U, 0x41d0ec72U, 0xbe689a00U,
 };
 /* [CLASSICAL_GOLDEN_STEPS] outputs asked of the inverse, float bits */
 static const uint32_t classical_golden_wanted[] = {
@@ -110,18 +110,18 @@ static const uint32_t classical_golden_wanted[] = {
 };
 /* [CLASSICAL_GOLDEN_STEPS] the inputs it answers, float bits */
 static const uint32_t classical_golden_inverse[] = {
-    0xc1a00000U, 0x42c7060eU, 0x42183070U, 0xc1a00000U, 0x42f00000U, 0x425c7e45U, 0xc0caeb3eU, 0x42f00000U,
-    0x42973914U, 0x416259f0U, 0xc1a00000U, 0x42c7060eU, 0x420fea8dU, 0xc1a00000U, 0x42f00000U, 0x426a2453U,
-    0xc0caeb40U, 0x42f00000U, 0x429e0c1bU, 0x41890d79U, 0xc1a00000U, 0x42c47d30U, 0x420a8a60U, 0xc1a00000U,
-    0x42f00000U, 0x425c7e45U, 0xc0caeb3eU, 0x42f00000U, 0x429e0c1bU, 0x416259f0U, 0xc1a00000U, 0x42c7060eU,
-    0x420e499dU, 0xc1a00000U, 0x42f00000U, 0x4268ee52U, 0xc0caeb3eU, 0x42f00000U, 0x429e0c1bU, 0x416259f0U,
-    0xc1a00000U, 0x42c7060eU, 0x420b1ff9U, 0xc1a00000U, 0x42f00000U, 0x4263cee1U, 0xc0caeb3eU, 0x42f00000U,
-    0x429e0c1bU, 0x416259f0U, 0xc1a00000U, 0x42c7060eU, 0x420b1ff9U, 0xc1a00000U, 0x42f00000U, 0x42674cd1U,
-    0xc0caeb3eU, 0x42f00000U, 0x429e0c1bU, 0x416259f0U, 0xc1a00000U, 0x42c7060eU, 0x420b1ff9U, 0xc1a00000U,
-    0x42f00000U, 0x42674cd1U, 0xc0caeb3eU, 0x42f00000U, 0x429e0c1bU, 0x416259f0U, 0xc1a00000U, 0x42c7060eU,
-    0x420b1ff9U, 0xc1a00000U, 0x42f00000U, 0x42674cd1U, 0xc0caeb3eU, 0x42f00000U, 0x429e0c1bU, 0x416259f0U,
-    0xc1a00000U, 0x42c7060eU, 0x420b1ff9U, 0xc1a00000U, 0x42f00000U, 0x42674cd2U, 0xc0caeb3eU, 0x42f00000U,
-    0x429e0c1bU, 0x416259f0U, 0xc1a00000U, 0x42c7060eU, 0x420a8a60U, 0xc1a00000U, 0x42f00000U, 0x426a2453U,
+    0xc1a00000U, 0x42c7060eU, 0x42183070U, 0xc1a00000U, 0x42efffffU, 0x425c7e44U, 0xc0caeb20U, 0x42f00000U,
+    0x42973914U, 0x416259f8U, 0xc1a00000U, 0x42c7060eU, 0x420fea8dU, 0xc1a00000U, 0x42f00000U, 0x426a2453U,
+    0xc0caeb28U, 0x42f00000U, 0x429e0c1bU, 0x41890d7aU, 0xc1a00000U, 0x42c47d30U, 0x420a8a61U, 0xc1a00000U,
+    0x42f00000U, 0x425c7e46U, 0xc0caeb38U, 0x42f00000U, 0x429e0c1bU, 0x416259ecU, 0xc1a00000U, 0x42c7060eU,
+    0x420e499eU, 0xc1a00000U, 0x42f00000U, 0x4268ee52U, 0xc0caeb3cU, 0x42f00000U, 0x429e0c1cU, 0x416259f0U,
+    0xc1a00000U, 0x42c7060fU, 0x420b1ffaU, 0xc1a00000U, 0x42f00000U, 0x4263cee2U, 0xc0caeb40U, 0x42f00000U,
+    0x429e0c1cU, 0x416259f6U, 0xc1a00000U, 0x42c7060eU, 0x420b1ffaU, 0xc1a00000U, 0x42f00000U, 0x42674cd2U,
+    0xc0caeb40U, 0x42f00000U, 0x429e0c1bU, 0x416259f4U, 0xc1a00000U, 0x42c7060eU, 0x420b1ff9U, 0xc1a00000U,
+    0x42f00000U, 0x42674cd2U, 0xc0caeb28U, 0x42f00000U, 0x429e0c1cU, 0x416259f8U, 0xc1a00000U, 0x42c7060eU,
+    0x420b1ffaU, 0xc1a00000U, 0x42f00000U, 0x42674cd1U, 0xc0caeb38U, 0x42f00000U, 0x429e0c1cU, 0x416259f0U,
+    0xc1a00000U, 0x42c7060eU, 0x420b1ffaU, 0xc1a00000U, 0x42f00000U, 0x42674cd2U, 0xc0caeb38U, 0x42f00000U,
+    0x429e0c1cU, 0x416259f4U, 0xc1a00000U, 0x42c7060eU, 0x420a8a60U, 0xc1a00000U, 0x42efffffU, 0x426a2453U,
 };
 static const hyst_f32_golden_t classical_golden = {
     .num_steps = CLASSICAL_GOLDEN_STEPS,
@@ -132,15 +132,13 @@ static const hyst_f32_golden_t classical_golden = {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof classical_radius / sizeof classical_radius[0] == CLASSICAL_NUM_PLAYS, "length of radius");
-static_assert(sizeof classical_weight / sizeof classical_weight[0] == CLASSICAL_NUM_PLAYS, "length of weight");
+static_assert(sizeof classical_play / sizeof classical_play[0] == CLASSICAL_NUM_PLAYS, "length of play");
 static_assert(sizeof classical_golden_input / sizeof classical_golden_input[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_input");
 static_assert(sizeof classical_golden_output / sizeof classical_golden_output[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_output");
 static_assert(sizeof classical_golden_wanted / sizeof classical_golden_wanted[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_wanted");
 static_assert(sizeof classical_golden_inverse / sizeof classical_golden_inverse[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_inverse");
 #else
-_Static_assert(sizeof classical_radius / sizeof classical_radius[0] == CLASSICAL_NUM_PLAYS, "length of radius");
-_Static_assert(sizeof classical_weight / sizeof classical_weight[0] == CLASSICAL_NUM_PLAYS, "length of weight");
+_Static_assert(sizeof classical_play / sizeof classical_play[0] == CLASSICAL_NUM_PLAYS, "length of play");
 _Static_assert(sizeof classical_golden_input / sizeof classical_golden_input[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_input");
 _Static_assert(sizeof classical_golden_output / sizeof classical_golden_output[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_output");
 _Static_assert(sizeof classical_golden_wanted / sizeof classical_golden_wanted[0] == CLASSICAL_GOLDEN_STEPS, "length of golden_wanted");

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unity.h>
 
-enum { NUM_MODELS = 300, NUM_STEPS = 400 };
+enum { NUM_MODELS = 300, NUM_STEPS = 400, MOST_FLOATS = HYST_F32_SNAPSHOT_LENGTH(128) };
 
 void setUp(void)
 {
@@ -21,7 +21,11 @@ static void assert_same_state(const hyst_f32_model_t* model, const hyst_f32_stat
     TEST_ASSERT_EQUAL_HEX32(f32_bits(a->input), f32_bits(b->input));
     TEST_ASSERT_EQUAL_HEX32(f32_bits(a->output), f32_bits(b->output));
     TEST_ASSERT_EQUAL_UINT32(a->cell, b->cell);
-    TEST_ASSERT_EQUAL_MEMORY(a->memory, b->memory, model->num_plays * sizeof(float));
+    float past_of_a[MOST_FLOATS] = {0};
+    float past_of_b[MOST_FLOATS] = {0};
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(model, a, past_of_a, MOST_FLOATS));
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(model, b, past_of_b, MOST_FLOATS));
+    TEST_ASSERT_EQUAL_MEMORY(past_of_a, past_of_b, sizeof past_of_a);
 }
 
 /// Within the bound that f32_model.c derives, after every step of a long random history.
@@ -65,9 +69,9 @@ static void test_resets_follow_the_exact_model(void)
             reference_t reference = reference_new(&made.exact, starts[start], (double)input);
             const double error = fabs((double)output - reference_output(&reference));
             TEST_ASSERT_TRUE(error <= bound.output + (start == 2 ? bound.demagnetise : 0.0));
-            float snapshot[129];
-            TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(&made.model, &state, snapshot, 129));
-            TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_restore(&made.model, &state, snapshot, 129));
+            float snapshot[MOST_FLOATS];
+            TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(&made.model, &state, snapshot, MOST_FLOATS));
+            TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_restore(&made.model, &state, snapshot, MOST_FLOATS));
             TEST_ASSERT_EQUAL_HEX32(f32_bits(output), f32_bits(state.output));
             reference_free(&reference);
         }
@@ -83,8 +87,8 @@ static void test_rate_independence_in_bits(void)
         f32_model_t made = f32_random(&random);
         hyst_f32_state_t slow = f32_state(&made);
         hyst_f32_state_t fast = slow;
-        fast.memory = xcalloc(made.model.num_plays, sizeof(float));
-        memcpy(fast.memory, slow.memory, made.model.num_plays * sizeof(float));
+        fast.memory = xcalloc(made.model.num_plays, sizeof *fast.memory);
+        memcpy(fast.memory, slow.memory, made.model.num_plays * sizeof *fast.memory);
         for (int i = 0; i < 50; ++i) {
             const float from = slow.input;
             const float to = f32_random_input(&random, &made, from);
@@ -109,7 +113,7 @@ static void test_wiping_out_in_bits(void)
         f32_model_t made = f32_random(&random);
         hyst_f32_state_t looped = f32_state(&made);
         hyst_f32_state_t plain = looped;
-        plain.memory = xcalloc(made.model.num_plays, sizeof(float));
+        plain.memory = xcalloc(made.model.num_plays, sizeof *plain.memory);
         float ends[4];
         for (int k = 0; k < 4; ++k) {
             ends[k] = f32_random_input(&random, &made, made.model.input_min);
@@ -138,14 +142,15 @@ static void test_split_run_in_bits(void)
         f32_model_t made = f32_random(&random);
         hyst_f32_state_t whole = f32_state(&made);
         hyst_f32_state_t resumed = whole;
-        resumed.memory = xcalloc(made.model.num_plays, sizeof(float));
-        float snapshot[129];
+        resumed.memory = xcalloc(made.model.num_plays, sizeof *resumed.memory);
+        float snapshot[MOST_FLOATS];
         for (int i = 0; i < 100; ++i) {
             const float input = f32_random_input(&random, &made, whole.input);
             (void)hyst_f32_step(&made.model, &whole, input);
             if (i == 0 || random_below(&random, 4) == 0) {
-                TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(&made.model, &whole, snapshot, 129));
-                TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_restore(&made.model, &resumed, snapshot, 129));
+                TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_save(&made.model, &whole, snapshot, MOST_FLOATS));
+                TEST_ASSERT_EQUAL(HYST_STATUS_OK,
+                                  hyst_f32_restore(&made.model, &resumed, snapshot, MOST_FLOATS));
             } else {
                 (void)hyst_f32_step(&made.model, &resumed, input);
             }

@@ -15,7 +15,7 @@ void tearDown(void)
 {
 }
 
-static float random_wanted(random_t* random, const hyst_f32_inverse_t* reach)
+static float random_wanted(random_t* random, const hyst_f32_reach_t* reach)
 {
     const double low = (double)reach->reachable_min;
     const double high = (double)reach->reachable_max;
@@ -37,7 +37,7 @@ static void test_round_trip(void)
             if (i % 3 == 0) {
                 (void)hyst_f32_step(&made.model, &state, f32_random_input(&random, &made, state.input));
             }
-            const hyst_f32_inverse_t reach = hyst_f32_inverse(&made.model, &state, 0.0F);
+            const hyst_f32_reach_t reach = hyst_f32_reachable(&made.model, &state);
             const float near = state.output + (reach.reachable_max - reach.reachable_min) * 1e-3F;
             const float wanted =
                 i % 5 == 0 ? fminf(near, reach.reachable_max) : random_wanted(&random, &reach);
@@ -57,23 +57,24 @@ static void test_looking_changes_nothing_and_reach_is_what_steps_reach(void)
         random_t random = random_new(6000 + seed);
         f32_model_t made = f32_random(&random);
         hyst_f32_state_t state = f32_state(&made);
-        const size_t size = made.model.num_plays * sizeof(float);
-        float* kept = xmalloc(size);
+        const size_t size = made.model.num_plays * sizeof *state.memory;
+        hyst_f32_segment_t* kept = xmalloc(size);
         for (int i = 0; i < 20; ++i) {
             (void)hyst_f32_step(&made.model, &state, f32_random_input(&random, &made, state.input));
             memcpy(kept, state.memory, size);
             const hyst_f32_state_t before = state;
             const float beyond = (float)random_uniform(&random, -1e6, 1e6);
             const hyst_f32_inverse_t found = hyst_f32_inverse(&made.model, &state, beyond);
+            const hyst_f32_reach_t reach = hyst_f32_reachable(&made.model, &state);
             TEST_ASSERT_EQUAL_MEMORY(kept, state.memory, size);
             TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
-            TEST_ASSERT_EQUAL(beyond < found.reachable_min || beyond > found.reachable_max, found.clamped);
+            TEST_ASSERT_EQUAL(beyond < reach.reachable_min || beyond > reach.reachable_max, found.clamped);
             const float high = hyst_f32_step(&made.model, &state, made.model.input_max);
-            TEST_ASSERT_EQUAL_HEX32(f32_bits(found.reachable_max), f32_bits(high));
+            TEST_ASSERT_EQUAL_HEX32(f32_bits(reach.reachable_max), f32_bits(high));
             state = before;
             memcpy(state.memory, kept, size);
             const float low = hyst_f32_step(&made.model, &state, made.model.input_min);
-            TEST_ASSERT_EQUAL_HEX32(f32_bits(found.reachable_min), f32_bits(low));
+            TEST_ASSERT_EQUAL_HEX32(f32_bits(reach.reachable_min), f32_bits(low));
         }
         free(kept);
         f32_free(&made);
@@ -93,10 +94,11 @@ static void test_clamped_answers_reach_the_end(void)
             const bool above = random_below(&random, 2) == 0;
             const hyst_f32_inverse_t found =
                 hyst_f32_inverse(&made.model, &state, above ? INFINITY : -INFINITY);
+            const hyst_f32_reach_t reach = hyst_f32_reachable(&made.model, &state);
             TEST_ASSERT_TRUE(found.clamped);
             TEST_ASSERT_TRUE(above ? found.input >= state.input : found.input <= state.input);
             const float output = hyst_f32_step(&made.model, &state, found.input);
-            const float end = above ? found.reachable_max : found.reachable_min;
+            const float end = above ? reach.reachable_max : reach.reachable_min;
             TEST_ASSERT_TRUE(fabs((double)output - (double)end) <= bound);
         }
         f32_free(&made);
@@ -115,15 +117,13 @@ static void test_answer_is_the_nearest(void)
         const double bound = 2.0 * f32_bound(&made).round_trip;
         for (int i = 0; i < 30; ++i) {
             (void)hyst_f32_step(&made.model, &state, f32_random_input(&random, &made, state.input));
-            const hyst_f32_inverse_t reach = hyst_f32_inverse(&made.model, &state, 0.0F);
+            const hyst_f32_reach_t reach = hyst_f32_reachable(&made.model, &state);
             const float wanted = random_wanted(&random, &reach);
             const hyst_f32_inverse_t found = hyst_f32_inverse(&made.model, &state, wanted);
             reference_t exact = {.model = &made.exact,
                                  .memory = xcalloc(made.model.num_plays, sizeof(double)),
                                  .input = (double)state.input};
-            for (uint32_t j = 0; j < made.model.num_plays; ++j) {
-                exact.memory[j] = (double)state.memory[j];
-            }
+            f32_plays(&made, &state, exact.memory);
             const bool rising = wanted > state.output;
             const double further = (double)wanted + (rising ? bound : -bound);
             // The oracle's halving may end a last bit of double before a knot.

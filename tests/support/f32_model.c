@@ -1,4 +1,6 @@
 #include "f32_model.h"
+#include "float_error.h"
+#include "float_lines.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,16 +14,22 @@ static float* copy_of(const float* values, size_t count)
     return copy;
 }
 
+void f32_update_plays(f32_model_t* made)
+{
+    made->model.moment = float_lines_loading(made->radius, made->weight, made->model.num_plays, made->play);
+}
+
 static f32_model_t with_plays(const float* radius, const float* weight, size_t num_plays)
 {
     f32_model_t made = {.radius = copy_of(radius, num_plays),
                         .weight = copy_of(weight, num_plays),
-                        .memory = xcalloc(num_plays, sizeof(float)),
+                        .play = xcalloc(num_plays, sizeof(hyst_f32_play_t)),
+                        .memory = xcalloc(num_plays, sizeof(hyst_f32_segment_t)),
                         .exact = model_new("test")};
     made.model.format = HYST_MODEL_FORMAT;
     made.model.num_plays = (uint32_t)num_plays;
-    made.model.radius = made.radius;
-    made.model.weight = made.weight;
+    made.model.play = made.play;
+    f32_update_plays(&made);
     model_set_num_plays(&made.exact, num_plays);
     for (size_t j = 0; j < num_plays; ++j) {
         made.exact.radius[j] = (double)radius[j];
@@ -47,11 +55,6 @@ f32_model_t f32_classical(const float* radius, const float* weight, size_t num_p
     curve_free(&made.exact.nonhysteretic);
     made.exact.nonhysteretic = curve_linear((double)slope, 0.0);
     return made;
-}
-
-static float slope_between(float x0, float y0, float x1, float y1)
-{
-    return (float)(((double)y1 - (double)y0) / ((double)x1 - (double)x0));
 }
 
 static void set_exact_curves(f32_model_t* made, size_t num_knots)
@@ -85,9 +88,9 @@ f32_model_t f32_tabulated(const float* radius, const float* weight, size_t num_p
     for (size_t k = 0; k + 1 < num_knots; ++k) {
         hyst_f32_knot_t* a = &made.knot[k];
         const hyst_f32_knot_t* b = &made.knot[k + 1];
-        a->ascending_slope = slope_between(a->input, a->ascending, b->input, b->ascending);
-        a->descending_slope = slope_between(a->input, a->descending, b->input, b->descending);
-        a->nonhysteretic_slope = slope_between(a->input, a->nonhysteretic, b->input, b->nonhysteretic);
+        a->ascending_slope = float_lines_slope(a->input, a->ascending, b->input, b->ascending);
+        a->descending_slope = float_lines_slope(a->input, a->descending, b->input, b->descending);
+        a->nonhysteretic_slope = float_lines_slope(a->input, a->nonhysteretic, b->input, b->nonhysteretic);
     }
     // The last knot's slopes are documented as unused.
     made.knot[num_knots - 1].ascending_slope = NAN;
@@ -171,10 +174,23 @@ void f32_free(f32_model_t* made)
 {
     free(made->radius);
     free(made->weight);
+    free(made->play);
     free(made->knot);
     free(made->memory);
     model_free(&made->exact);
     *made = (f32_model_t){0};
+}
+
+void f32_plays(const f32_model_t* made, const hyst_f32_state_t* state, double* w)
+{
+    uint32_t j = 0;
+    for (uint32_t i = state->front + 1; i-- > 0;) {
+        const hyst_f32_segment_t* segment = &state->memory[i];
+        for (; j <= segment->last; ++j) {
+            const double outward = (double)segment->level - (double)made->radius[j];
+            w[j] = segment->rising != 0 ? outward : -outward;
+        }
+    }
 }
 
 hyst_f32_state_t f32_state(f32_model_t* made)
@@ -232,15 +248,14 @@ static extent_t table_extent(const hyst_f32_model_t* model, double total)
     return most;
 }
 
-/// u = 2^-24. A tabulated curve: slope, difference and product each round once, u of the cell's rise; the sum
-/// u of the value. A play: min and max do not enlarge errors, so it carries its worst push: the envelope's
-/// error and u of (envelope + r). The sum: u per product and per addition, at most N + 1 for a term. Then D,
-/// constant + D, total. Round trip: the bracket's ends and the answer are each off by that, weighted to 2 in
-/// all. A kink is misplaced by u (envelope + 2 r) in the envelope, within the plays' part of twice the bound,
-/// and in the input by 3 u of the cell's width and u of the input; solving adds 5 u of the width and u of the
-/// input. The input's part counts times the steepest slope of the output. Demagnetising: the interpolation is
-/// off by 18 u (DESIGN: hyst_f32_snapshot.c) of (envelope + r), and the rounded middle of the range and
-/// amplitudes by 3 u of the input, times the envelope's slope, twice since both branches move.
+/// u = 2^-24. A tabulated curve: slope, lowered by up to one unit, difference and product, 5 u of the cell's
+/// rise; the sum, and the unit the slope was lowered for, 2 u of the value. The plays' sums: float_error.c.
+/// Then D, constant + D, total. Round trip: the bracket's ends and the answer are each off by that, weighted
+/// to 2 in all. A kink is misplaced by u (envelope + 2 r) in the envelope, within the plays' part of twice
+/// the bound, and in the input by 3 u of the cell's width and u of the input; solving adds 5 u of the width
+/// and u of the input. The input's part counts times the steepest slope of the output. Demagnetising: the
+/// interpolation is off by 18 u (DESIGN: hyst_f32_snapshot.c) of (envelope + r), and the rounded middle of
+/// the range and amplitudes by 3 u of the input, times the envelope's slope, twice since both branches move.
 f32_bound_t f32_bound(const f32_model_t* made)
 {
     const double u = 0.5 * (double)FLT_EPSILON;
@@ -254,11 +269,12 @@ f32_bound_t f32_bound(const f32_model_t* made)
     for (uint32_t j = 0; j < model->num_plays; ++j) {
         reach_sum += made->exact.weight[j] * (most.envelope + made->exact.radius[j]);
     }
-    const double envelope = model->num_knots == 0 ? 0.0 : 3.0 * u * most.envelope_rise + u * most.envelope;
+    const double envelope =
+        model->num_knots == 0 ? 0.0 : 5.0 * u * most.envelope_rise + 2.0 * u * most.envelope;
     const double offset = fabs((double)model->constant) + most.nonhysteretic;
-    const double plays = total * envelope + u * reach_sum + (model->num_plays + 1.0) * u * reach_sum;
-    const double rest =
-        u * (3.0 * most.nonhysteretic_rise + most.nonhysteretic) + u * offset + u * (offset + reach_sum);
+    const double plays = total * envelope + float_error_of_sums(model, most.envelope);
+    const double rest = u * (5.0 * most.nonhysteretic_rise + 2.0 * most.nonhysteretic) + u * offset +
+                        u * (offset + reach_sum);
     // Terms in u^2 are below a thousandth of these for N <= 4096; the last term is for underflow.
     const double output = 1.001 * (plays + rest) + (model->num_plays + 4.0) * (double)FLT_MIN;
     return (f32_bound_t){

@@ -11,9 +11,10 @@ typedef struct {
     hyst_f32_model_t model;
     float* radius;
     float* weight;
+    hyst_f32_play_t* play;
     hyst_f32_knot_t* knot;
-    float* memory; ///< [num_plays], for a state
-    model_t exact; ///< the same numbers in double
+    hyst_f32_segment_t* memory; ///< [num_plays], for a state
+    model_t exact;              ///< the same numbers in double
 } f32_model_t;
 
 /// What rounding may do, in output or envelope units, derived in f32_model.c.
@@ -37,6 +38,12 @@ void f32_free(f32_model_t* made);
 /// A state at negative saturation in made->memory; ends the program when the model is refused.
 hyst_f32_state_t f32_state(f32_model_t* made);
 f32_bound_t f32_bound(const f32_model_t* made);
+
+/// The plays' states w_j, [num_plays].
+void f32_plays(const f32_model_t* made, const hyst_f32_state_t* state, double* w);
+
+/// The table of plays anew, after a test changed `radius` or `weight`.
+void f32_update_plays(f32_model_t* made);
 
 /// An input within range: noise, a small step from the last one, an end, or a knot.
 float f32_random_input(random_t* random, const f32_model_t* made, float last);

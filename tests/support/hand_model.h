@@ -7,12 +7,12 @@
 
 #define HAND_NAME               "hand"
 #define HAND_NUM_PLAYS          2
-#define HAND_RAM_BYTES          (sizeof(hyst_f32_state_t) + sizeof(hand_radius))
-#define HAND_FLASH_BYTES        (sizeof(hand_model) + sizeof(hand_radius) + sizeof(hand_weight) + sizeof(hand_knot))
+#define HAND_RAM_BYTES          (sizeof(hyst_f32_state_t) + HAND_NUM_PLAYS * sizeof(hyst_f32_segment_t))
+#define HAND_FLASH_BYTES        (sizeof(hand_model) + sizeof(hand_play) + sizeof(hand_knot))
 #define HAND_GOLDEN_FLASH_BYTES (sizeof(hand_golden) + 4 * sizeof(hand_input))
 
-static const float hand_radius[HAND_NUM_PLAYS] = {0.25F, 1.0F};
-static const float hand_weight[HAND_NUM_PLAYS] = {1.0F, 2.0F};
+/// Radii 0.25 and 1, weights 1 and 2.
+static const hyst_f32_play_t hand_play[HAND_NUM_PLAYS] = {{0.5F, 0.0F, 1.0F}, {2.0F, 1.5F, 3.0F}};
 static const hyst_f32_knot_t hand_knot[3] = {
     {0.0F, 0.0F, 0.5F, 0.5F, 1.25F, 0.0F, 0.0F},
     {2.0F, 1.0F, 1.5F, 3.0F, 0.5F, 0.0F, 0.5F},
@@ -25,8 +25,8 @@ static const hyst_f32_model_t hand_model = {
     .input_min = 0.0F,
     .input_max = 4.0F,
     .constant = -1.0F,
-    .radius = hand_radius,
-    .weight = hand_weight,
+    .moment = 2.25F,
+    .play = hand_play,
     .knot = hand_knot,
 };
 
@@ -38,12 +38,12 @@ static const uint32_t hand_input[12] = {0x3F800000, 0x40200000, 0x40600000, 0x40
 static const uint32_t hand_output[12] = {0x40300000, 0x40700000, 0x40E80000, 0x40E00000,
                                          0x40940000, 0x40C00000, 0x411C0000, 0x40F40000,
                                          0x40F40000, 0x40F80000, 0x40300000, 0x40C00000};
-/// 4.75, 9.75, 5.5, 2.75, 9.75, 9.75, 2.75, 9.75, 2.75, 8.75, 8.5, 4.125
-static const uint32_t hand_wanted[12] = {0x40980000, 0x411C0000, 0x40B00000, 0x40300000,
+/// 4.75, 9.75, 6.125, 2.75, 9.75, 9.75, 2.75, 9.75, 2.75, 8.75, 8.5, 4.125
+static const uint32_t hand_wanted[12] = {0x40980000, 0x411C0000, 0x40C40000, 0x40300000,
                                          0x411C0000, 0x411C0000, 0x40300000, 0x411C0000,
                                          0x40300000, 0x410C0000, 0x41080000, 0x40840000};
-/// 3, 4, 1, 0, 4, 4, 0, 4, 0, 3.5, 3.75, 0.5
-static const uint32_t hand_inverse[12] = {0x40400000, 0x40800000, 0x3F800000, 0x00000000,
+/// 3, 4, 1.5, 0, 4, 4, 0, 4, 0, 3.5, 3.75, 0.5
+static const uint32_t hand_inverse[12] = {0x40400000, 0x40800000, 0x3FC00000, 0x00000000,
                                           0x40800000, 0x40800000, 0x00000000, 0x40800000,
                                           0x00000000, 0x40600000, 0x40700000, 0x3F000000};
 static const hyst_f32_golden_t hand_golden = {12, hand_input, hand_output, hand_wanted, hand_inverse};

@@ -89,7 +89,7 @@ static float random_input(random_t* random, const hyst_f32_model_t* model, float
 /// Largest difference between lib/ and the reference over a random run from negative saturation.
 static double largest_difference(random_t* random, const model_t* model, const hyst_f32_model_t* stored)
 {
-    float* memory = xcalloc(stored->num_plays, sizeof(float));
+    hyst_f32_segment_t* memory = xcalloc(stored->num_plays, sizeof *memory);
     hyst_f32_state_t state;
     const hyst_status_t status = hyst_f32_init(stored, &state, memory, stored->num_plays);
     TEST_ASSERT_EQUAL_STRING(hyst_status_text(HYST_STATUS_OK), hyst_status_text(status));
@@ -171,7 +171,7 @@ static void one_kink_takes_three_knots(void)
     model.ascending = curve_table(x, y, 3);
     model.descending = curve_table(x, y, 3);
     model.weight[0] = 1.0;
-    grid_t grid = grid_find(&model, 0.0f, 1.0f, 1e-3);
+    grid_t grid = grid_find(&model, GRID_OF_FLOATS, 0.0, 1.0, 1e-3);
     TEST_ASSERT_EQUAL_UINT64(3, grid.num_knots);
     // Two knots would be off by the kink's height: 0.5 - 0.1.
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.4, chord_error(&model.ascending, 0.0, 1.0));
@@ -192,7 +192,7 @@ static void tanh_takes_no_more_knots_than_equal_cells(void)
     const double curvature = 16.0 * 4.0 / (3.0 * sqrt(3.0));
     for (int power = 2; power <= 5; ++power) {
         const double error = pow(10.0, -power);
-        grid_t grid = grid_find(&model, 0.0f, 1.0f, error);
+        grid_t grid = grid_find(&model, GRID_OF_FLOATS, 0.0, 1.0, error);
         TEST_ASSERT_TRUE(grid.error <= error);
         TEST_ASSERT_TRUE((double)grid.num_knots <= 1.0 + ceil(sqrt(curvature / (8.0 * error))));
         grid_free(&grid);

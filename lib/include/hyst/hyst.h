@@ -9,18 +9,26 @@
 /// it to a few plays and emits a C header; this library runs it:
 ///
 ///   #include "vo2_film.h"                           // generated: vo2_film_model, VO2_FILM_NUM_PLAYS
-///   static float memory[VO2_FILM_NUM_PLAYS];
+///   static hyst_f32_segment_t memory[VO2_FILM_NUM_PLAYS];
 ///   static hyst_f32_state_t state;
 ///   ...
 ///   if (hyst_f32_init(&vo2_film_model, &state, memory, VO2_FILM_NUM_PLAYS) != HYST_STATUS_OK) { stop(); }
 ///   float y = hyst_f32_step(&vo2_film_model, &state, u);            // what the actuator does
-///   hyst_f32_inverse_t want = hyst_f32_inverse(&vo2_film_model, &state, y_wanted);  // what to apply for
-///   y_wanted
+///   hyst_f32_inverse_t want = hyst_f32_inverse(&vo2_film_model, &state, y_wanted);  // what to apply
 ///
-/// Nothing in here allocates, prints, locks, blocks, recurses or keeps a global. A model is constant and may
-/// be shared by any number of states and contexts. A state may be used from one context at a time; different
-/// states share nothing, so each function may run in an interrupt as long as no other context uses the same
-/// state.
+/// Nothing in here allocates, prints, locks, masks interrupts, blocks, recurses or keeps a global. So every
+/// function may run in an interrupt, and what interrupts it may call any of them too, on one condition: a
+/// state belongs to one context at a time. Different states share nothing. Models, golden vectors and
+/// snapshots being read are constant and may be shared by any number of contexts.
+///
+/// Where an interrupt steps a state, another context must mask that interrupt around each of its own calls
+/// with the same state: around step, reset and restore, and around inverse, save and seal too.
+/// These only read, but would read half of one sample and half of the next (and a checksum made over such a
+/// mixture is right and does not tell). To read a single field needs no mask where a 32-bit load is one
+/// instruction, as on every Cortex-M and RV32: it is of the last sample or of the one before.
+///
+/// Floats in an interrupt need the core to save the floating-point registers. Cortex-M does so by itself
+/// (FPCCR.ASPEN, which is set out of reset); elsewhere it is the interrupt entry's duty.
 #ifndef HYST_HYST_H
 #define HYST_HYST_H
 
@@ -33,12 +41,14 @@
 #define HYST_VERSION_PATCH 0
 
 /// The layout of generated models. A header made for another layout refuses to compile.
-#define HYST_MODEL_FORMAT 1
+#define HYST_MODEL_FORMAT 2
 
 /// Most play operators in a model: keeps every count and index in 16 bits.
 #define HYST_MAX_PLAYS 4096
 /// Most knots in a model's table of curves.
 #define HYST_MAX_KNOTS 65535
+/// Most cycles of a homing sequence: keeps every count exact in float.
+#define HYST_MAX_HOMING_CYCLES 1048576
 
 #if defined(__GNUC__)
 #define HYST_NODISCARD __attribute__((warn_unused_result))
@@ -59,17 +69,21 @@ typedef enum {
     HYST_STATUS_MEMORY_LENGTH = 4, ///< the memory given is shorter than num_plays
     HYST_STATUS_INPUT_RANGE = 5,   ///< input_min < input_max does not hold, or one or the width is not finite
     HYST_STATUS_RADIUS = 6,        ///< radii are not finite, not >= 0, or decrease
-    HYST_STATUS_WEIGHT = 7,        ///< a weight is not finite or not >= 0
+    HYST_STATUS_WEIGHT = 7,        ///< a weight is not finite or not >= 0, or their sums decrease
     HYST_STATUS_NONHYSTERETIC = 8, ///< the non-hysteretic part is not finite, decreases, or its slopes
                                    ///< contradict its knots
     HYST_STATUS_KNOTS = 9,     ///< the table's inputs do not strictly increase over [input_min, input_max]
     HYST_STATUS_ENVELOPE = 10, ///< an envelope is not finite, decreases, does not increase over all (equal
                                ///< neighbours are taken: saturation rounds so), or its slopes contradict it
-    HYST_STATUS_ENVELOPE_ORDER =
-        11, ///< ascending(v) - r <= descending(v) + r does not hold for the least radius
-    HYST_STATUS_OUTPUT_RANGE = 12, ///< the largest possible output, doubled, is not finite in this type
-    HYST_STATUS_SNAPSHOT = 13,     ///< a snapshot holds no state this model can be in
-    HYST_STATUS_SELF_TEST = 14,    ///< a golden vector came out with other bits than on the host
+    HYST_STATUS_ENVELOPE_ORDER = 11,  ///< ascending - r <= descending + r does not hold for the least radius
+    HYST_STATUS_OUTPUT_RANGE = 12,    ///< the largest possible output, doubled, is not finite in this type
+    HYST_STATUS_SNAPSHOT = 13,        ///< a snapshot holds no state this model can be in
+    HYST_STATUS_SELF_TEST = 14,       ///< a golden vector came out with other bits than on the host
+    HYST_STATUS_SNAPSHOT_FORMAT = 15, ///< no snapshot, or one of another layout, scalar or length
+    HYST_STATUS_SNAPSHOT_MODEL = 16,  ///< a snapshot of another model
+    HYST_STATUS_SNAPSHOT_TORN = 17,   ///< a snapshot's checksum is wrong: not written to its end, or damaged
+    HYST_STATUS_CYCLES = 18,          ///< the number of homing cycles is 0 or above HYST_MAX_HOMING_CYCLES
+    HYST_STATUS_LOADING = 19, ///< the loading curve or the moment does not follow from radii and weights
 } hyst_status_t;
 
 /// Which past a reset puts the memory into.
