@@ -1,5 +1,5 @@
-/// Fixed-point GPI model in 16-bit integers, for cores without a long multiply: as hyst/hyst_q31.h, where every
-/// function is described, with 16 for 32, 2^15 for 2^31 and no product beyond 32 bits.
+/// Fixed-point GPI model in 16-bit integers, for cores without a long multiply: as hyst/hyst_q31.h, where
+/// every function is described, with 16 for 32, 2^15 for 2^31 and no product beyond 32 bits.
 #ifndef HYST_HYST_Q15_H
 #define HYST_HYST_Q15_H
 
@@ -73,9 +73,11 @@ typedef struct {
 
 HYST_NODISCARD hyst_status_t hyst_q15_init(const hyst_q15_model_t* model, hyst_q15_state_t* state,
                                            hyst_q15_segment_t* memory, size_t memory_length);
-int16_t hyst_q15_reset(const hyst_q15_model_t* model, hyst_q15_state_t* state, hyst_start_t start, int16_t input);
+int16_t hyst_q15_reset(const hyst_q15_model_t* model, hyst_q15_state_t* state, hyst_start_t start,
+                       int16_t input);
 int16_t hyst_q15_step(const hyst_q15_model_t* model, hyst_q15_state_t* state, int16_t input);
-hyst_q15_inverse_t hyst_q15_inverse(const hyst_q15_model_t* model, const hyst_q15_state_t* state, int16_t wanted);
+hyst_q15_inverse_t hyst_q15_inverse(const hyst_q15_model_t* model, const hyst_q15_state_t* state,
+                                    int16_t wanted);
 hyst_q15_reach_t hyst_q15_reachable(const hyst_q15_model_t* model, const hyst_q15_state_t* state);
 
 #define HYST_Q15_SNAPSHOT_LENGTH(num_plays) ((num_plays) + 1)
