@@ -59,23 +59,24 @@ typedef struct {
 /// Plays that were pushed together: from the end of the segment above it on the stack (0 for the topmost) to
 /// `end`.
 typedef struct {
-    uint64_t rest;  ///< sum of p_j w_j over the plays from `end` on, less (level - r_j) or plus (level + r_j)
-                    ///< the sum of p_j r_j over all plays before `end`, modulo 2^64
-    uint32_t level; ///< their states are level - r_j, or level + r_j
-    uint16_t end;   ///< one past its last play
+    /// With the segment's level c, w_j = c -+ r_j: what the topmost segment adds to P c to give sum p_j w_j
+    /// over all plays, P being the weights before `end`. That is, the sum of p_j w_j from `end` on -+ that of
+    /// p_j r_j before.
+    uint64_t rest;
+    uint32_t level;   ///< their states are level - r_j, or level + r_j
+    uint16_t end;     ///< one past its last play
     uint16_t falling; ///< 1: level + r_j, pushed by a falling input; 0: level - r_j
 } hyst_q31_segment_t;
 
 /// The state, caller-owned, in RAM. Fields may be read; only the functions below write them.
 typedef struct {
-    uint64_t sum; ///< sum of p_j w_j
-    hyst_q31_segment_t*
-        segment;             ///< [num_plays] the memory, the caller's array: a stack, the last one has play 0
-    uint32_t num_segments;   ///< on the stack, 1 ... num_plays
-    uint32_t cell;           ///< a table's cell that holds `input`
-    uint32_t clamped_inputs; ///< inputs outside [input_min, input_max] (stops counting at UINT32_MAX)
-    int32_t input;           ///< the last input applied, after clamping
-    int32_t output;          ///< the output it gave
+    uint64_t sum;                ///< sum of p_j w_j
+    hyst_q31_segment_t* segment; ///< [num_plays] the memory, a stack: the last one used has play 0
+    uint32_t num_segments;       ///< on the stack, 1 ... num_plays
+    uint32_t cell;               ///< a table's cell that holds `input`
+    uint32_t clamped_inputs;     ///< inputs outside [input_min, input_max] (stops counting at UINT32_MAX)
+    int32_t input;               ///< the last input applied, after clamping
+    int32_t output;              ///< the output it gave
 } hyst_q31_state_t;
 
 /// What the inverse found.
