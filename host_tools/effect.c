@@ -1,34 +1,28 @@
 #include "effect.h"
-#include <stddef.h>
+#include "effect_catalogue.h"
 #include <string.h>
+
+static const effect_t* const catalogue[] = {
+    &effect_gain_offset, &effect_delay,        &effect_input_lag,
+    &effect_output_lag,  &effect_drift_linear, &effect_drift_spline,
+};
+
+size_t effect_count(void)
+{
+    return sizeof catalogue / sizeof catalogue[0];
+}
+
+const effect_t* effect_at(size_t index)
+{
+    return catalogue[index];
+}
 
 bool effect_is_known(const char* name)
 {
-    static const char* const catalogue[] = {
-        "gain_offset",
-        "delay",
-        "input_lag",
-        "slew_limit",
-        "rate_dependence",
-        "creep",
-        "noncongruency",
-        "wear",
-        "initial_state",
-        "output_lag",
-        "resonance",
-        "backlash",
-        "output_saturation",
-        "output_nonlinearity",
-        "drift",
-        "periodic_disturbance",
-        "quantization",
-        "exogenous",
-        "unknown",
-    };
-    for (size_t i = 0; i < sizeof catalogue / sizeof catalogue[0]; ++i) {
-        if (strcmp(catalogue[i], name) == 0) {
+    for (size_t i = 0; i < effect_count(); ++i) {
+        if (strcmp(catalogue[i]->name, name) == 0) {
             return true;
         }
     }
-    return false;
+    return strcmp(name, "unknown") == 0;
 }
