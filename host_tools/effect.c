@@ -2,9 +2,32 @@
 #include "effect_catalogue.h"
 #include <string.h>
 
+/// In the contract's order, in which a run applies them within a stage.
 static const effect_t* const catalogue[] = {
-    &effect_gain_offset, &effect_delay,        &effect_input_lag,
-    &effect_output_lag,  &effect_drift_linear, &effect_drift_spline,
+    &effect_gain_offset,
+    &effect_delay,
+    &effect_input_lag,
+    &effect_slew_limit,
+    &effect_rate_dependence_play_lag,
+    &effect_rate_dependence_widening,
+    &effect_creep_additional,
+    &effect_creep_delayed,
+    &effect_noncongruency_product,
+    &effect_noncongruency_moving,
+    &effect_noncongruency_increment,
+    &effect_wear_amplitude,
+    &effect_wear_increment,
+    &effect_initial_state,
+    &effect_output_lag,
+    &effect_resonance,
+    &effect_backlash,
+    &effect_output_saturation,
+    &effect_output_nonlinearity,
+    &effect_drift_linear,
+    &effect_drift_spline,
+    &effect_periodic_disturbance,
+    &effect_quantization,
+    &effect_exogenous,
 };
 
 size_t effect_count(void)
