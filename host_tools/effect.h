@@ -107,16 +107,14 @@ void effect_simulate_rest(const effect_run_t* run, const effect_use_t* uses, siz
 /// Whether the record has every column that the uses follow; else OUTCOME_BAD_INPUT with the columns there
 /// are.
 outcome_t effect_check_columns(const record_t* record, const effect_use_t* uses, size_t num_uses);
-/// Whether every use has an inverse; else OUTCOME_BAD_INPUT with the effect's name and the reason.
-outcome_t effect_check_inverse(const char* model_path, const effect_use_t* uses, size_t num_uses);
-/// What `wanted` asks of effect_simulate_hysteresis for the whole to give it, in place. clamped[num_samples]
-/// is set to 1 where no value does. Every use has an inverse.
-void effect_invert_rest(const effect_run_t* run, const effect_use_t* uses, size_t num_uses, double* wanted,
-                        double* clamped);
-/// The command whose course behind the drive side is `input`, in place.
-void effect_invert_drive(const effect_run_t* run, const effect_use_t* uses, size_t num_uses, double* input);
+/// One body, sensor or drive effect, or its inverse, over a series, with the column it follows.
+void effect_use_apply(const effect_run_t* run, const effect_use_t* use, double* series);
+void effect_use_invert(const effect_run_t* run, const effect_use_t* use, double* series);
 /// How the plays run with these uses; hysteresis_free when done.
 hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses, size_t num_uses);
+
+/// The limits of a use's parameter: its effect's, for exogenous in terms of the column's own size.
+effect_limits_t effect_use_limits(const effect_run_t* run, const effect_use_t* use, size_t parameter);
 
 /// The first thing wrong with a model's `effects` (NULL: nothing to check). "unknown" passes: it is a name
 /// without a run.

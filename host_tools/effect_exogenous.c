@@ -15,8 +15,7 @@ static const effect_parameter_t parameters[] = {
     [WIDTH] = {"width", "envelope/column", ANY_NUMBER, .optional = true},
 };
 
-/// The bounds are for a column of the order of 1: the column is not known here. effect_exogenous_scale says
-/// by what to divide them.
+/// For a column that goes as far as 1 from its reference; effect_use_limits divides by how far it goes.
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     const double size = parameter == GAIN     ? 1.0

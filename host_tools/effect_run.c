@@ -132,14 +132,38 @@ static double* centred_column(const effect_run_t* run, const effect_use_t* use)
     return centred;
 }
 
-typedef void series_effect_t(const effect_run_t*, const double*, const double*, double*);
-
-static void run_series(const effect_run_t* run, const effect_use_t* use, series_effect_t* effect,
-                       double* series)
+void effect_use_apply(const effect_run_t* run, const effect_use_t* use, double* series)
 {
     double* column = centred_column(run, use);
-    effect(run, use->parameter, column, series);
+    use->effect->apply(run, use->parameter, column, series);
     free(column);
+}
+
+void effect_use_invert(const effect_run_t* run, const effect_use_t* use, double* series)
+{
+    double* column = centred_column(run, use);
+    use->effect->invert(run, use->parameter, column, series);
+    free(column);
+}
+
+effect_limits_t effect_use_limits(const effect_run_t* run, const effect_use_t* use, size_t parameter)
+{
+    effect_limits_t limits;
+    use->effect->limits(run, parameter, &limits);
+    double* column = centred_column(run, use);
+    double size = 0.0;
+    for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
+        size = fmax(size, fabs(column[i]));
+    }
+    free(column);
+    if (size > 0.0) {
+        limits = (effect_limits_t){
+            .low = limits.low / size,
+            .high = limits.high / size,
+            .neutral = limits.neutral / size,
+            .start = {limits.start[0] / size, limits.start[1] / size, limits.start[2] / size}};
+    }
+    return limits;
 }
 
 /// The uses of one stage in the catalogue's order, among equals in the given one.
@@ -150,7 +174,7 @@ static void apply_stage(const effect_run_t* run, const effect_use_t* uses, size_
         const effect_t* effect = effect_at(e);
         for (size_t u = 0; effect->stage == stage && u < num_uses; ++u) {
             if (uses[u].effect == effect && effect->apply != NULL) {
-                run_series(run, &uses[u], effect->apply, series);
+                effect_use_apply(run, &uses[u], series);
             }
         }
     }

@@ -20,6 +20,14 @@ static bool differs(double value)
     return fabs(value) > 0.0;
 }
 
+bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
+{
+    return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) &&
+           !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
+           !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
+           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+}
+
 /// The input's place in the model's range, -1 ... 1; beyond the range its end's.
 static double level(const model_t* model, double v)
 {
@@ -347,6 +355,10 @@ void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hys
                     const double* input, size_t num_samples, double* output)
 {
     if (num_samples == 0) {
+        return;
+    }
+    if (hysteresis_is_neutral(hysteresis)) {
+        reference_run(model, start, input, num_samples, output);
         return;
     }
     hysteresis_state_t state = hysteresis_start(model, start, hysteresis, input[0]);

@@ -24,6 +24,7 @@ typedef struct {
 } hysteresis_t;
 
 hysteresis_t hysteresis_neutral(void);
+bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
 void hysteresis_free(hysteresis_t* hysteresis);
 /// output[num_samples] for input[num_samples] at time[num_samples] (seconds, increasing).
 void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hysteresis, const double* time,

@@ -1,4 +1,5 @@
 #include "model_run.h"
+#include "input_file.h"
 #include "model_file.h"
 #include "output_file.h"
 #include <stdlib.h>
@@ -27,21 +28,32 @@ static outcome_t check_streams(const options_t* options, const char* const* argu
 static outcome_t run_on(const options_t* options, const char* model_path, const model_t* model,
                         const record_t* record, model_run_work_t* work)
 {
-    start_t start;
-    outcome_t outcome = command_refuse_effects(model_path, model);
-    if (outcome == OUTCOME_OK) {
-        outcome = command_start(options->initial, model, &start);
-    }
+    effect_use_t* uses;
+    model_run_t run = {.model = model,
+                       .record = record,
+                       .model_path = input_name(model_path),
+                       .output = options->output,
+                       .report = !output_is_stdout(options->output),
+                       .json = options->json != 0};
+    outcome_t outcome = effect_uses_of_model(model, run.model_path, &uses, &run.num_uses);
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    const model_run_t run = {.model = model,
-                             .record = record,
-                             .start = start,
-                             .output = options->output,
-                             .report = !output_is_stdout(options->output),
-                             .json = options->json != 0};
-    return work(&run);
+    run.uses = uses;
+    if (run.num_uses > 0 && record->time == NULL) {
+        message_warning(
+            (location_t){.file = record->path},
+            "the record has no time: for the model's effects a sample is a second (--sample-rate)");
+    }
+    outcome = effect_check_columns(record, uses, run.num_uses);
+    if (outcome == OUTCOME_OK) {
+        outcome = command_start(options->initial, model, &run.start);
+    }
+    if (outcome == OUTCOME_OK) {
+        outcome = work(&run);
+    }
+    free(uses);
+    return outcome;
 }
 
 static outcome_t read_and_run(const options_t* options, const char* const* arguments, record_options_t needs,

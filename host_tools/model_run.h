@@ -3,11 +3,15 @@
 #define HYST_HOST_MODEL_RUN_H
 
 #include "command.h"
+#include "effect.h"
 
 typedef struct {
     const model_t* model;
     const record_t* record;
     start_t start;
+    const char* model_path;
+    const effect_use_t* uses; ///< [num_uses] the model's effects
+    size_t num_uses;
     const char* output; ///< where the resulting record goes, as record_write takes it
     bool report;        ///< whether stdout is free for the result in words or, with `json`, in JSON
     bool json;
