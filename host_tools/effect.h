@@ -62,6 +62,9 @@ struct effect {
     const effect_parameter_t* parameter;
     /// What is wrong with parameters that are each physical (tau_fast above tau_slow), or NULL. May be NULL.
     const char* (*fault)(const double* parameter);
+    /// Puts parameters that a search left in another order into theirs, without a change of what they do. May
+    /// be NULL.
+    void (*normalise)(double* parameter);
     void (*limits)(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
     /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column, centred on its first
     /// value [num_samples], or NULL.
@@ -123,6 +126,8 @@ model_fault_t effect_fault(const json_t* effects);
 /// file's place where known) for an unknown type or mechanism, a missing, unknown or unphysical parameter.
 outcome_t effect_uses_of_model(const model_t* model, const char* model_path, effect_use_t** uses,
                                size_t* num_uses);
+/// What a search found, as its effect's parameters are meant to be read.
+void effect_use_normalise(effect_use_t* use);
 /// An entry for a model's `effects`: {"type", "mechanism"?, "column"?, parameters...}.
 json_t* effect_use_to_json(const effect_use_t* use);
 

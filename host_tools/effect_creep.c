@@ -50,6 +50,14 @@ static const char* fault(const double* parameter)
     return parameter[TAU_FAST] <= parameter[TAU_SLOW] ? NULL : "creep: \"tau_fast\" is above \"tau_slow\"";
 }
 
+/// The lags are the same set either way round.
+static void normalise(double* parameter)
+{
+    const double fast = fmin(parameter[TAU_FAST], parameter[TAU_SLOW]);
+    parameter[TAU_SLOW] = fmax(parameter[TAU_FAST], parameter[TAU_SLOW]);
+    parameter[TAU_FAST] = fast;
+}
+
 /// A run through the lags, values counted from the series' first.
 typedef struct {
     double tau[LAGS];
@@ -62,7 +70,6 @@ typedef struct {
 static creep_t creep_new(const double* parameter, double direct)
 {
     creep_t creep = {.direct = direct, .amount = parameter[AMOUNT]};
-    // A search may cross them; the order does not matter then.
     const double ratio = parameter[TAU_SLOW] / parameter[TAU_FAST];
     for (size_t k = 0; k < LAGS; ++k) {
         creep.tau[k] = parameter[TAU_FAST] * pow(ratio, (double)k / (LAGS - 1));
@@ -137,6 +144,7 @@ const effect_t effect_creep_additional = {
     .num_parameters = COUNT_OF(additional_parameters),
     .parameter = additional_parameters,
     .fault = fault,
+    .normalise = normalise,
     .limits = limits,
     .apply = apply_additional,
     .invert = invert_additional,
@@ -150,6 +158,7 @@ const effect_t effect_creep_delayed = {
     .num_parameters = COUNT_OF(delayed_parameters),
     .parameter = delayed_parameters,
     .fault = fault,
+    .normalise = normalise,
     .limits = limits,
     .apply = apply_delayed,
     .invert = invert_delayed,

@@ -207,6 +207,13 @@ outcome_t effect_uses_of_model(const model_t* model, const char* model_path, eff
     return OUTCOME_OK;
 }
 
+void effect_use_normalise(effect_use_t* use)
+{
+    if (use->effect->normalise != NULL) {
+        use->effect->normalise(use->parameter);
+    }
+}
+
 json_t* effect_use_to_json(const effect_use_t* use)
 {
     json_t* entry = json_pack("{s:s}", "type", use->effect->name);

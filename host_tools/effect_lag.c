@@ -72,7 +72,7 @@ void series_invert(const effect_run_t* run, const double* parameter, series_map_
     double* defect = xmalloc(size);
     memcpy(trial, series, size);
     lead(run, parameter, trial);
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int i = 0; i < CORRECTIONS; ++i) {
         memcpy(given, trial, size);
         apply(run, parameter, given);

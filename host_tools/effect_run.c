@@ -34,8 +34,8 @@ static double output_span(const model_t* model, const double* input, size_t num_
 {
     double* output = xcalloc(num_samples, sizeof(double));
     reference_run(model, START_MODEL, input, num_samples, output);
-    double low = INFINITY;
-    double high = -INFINITY;
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
     for (size_t i = 0; i < num_samples; ++i) {
         low = fmin(low, output[i]);
         high = fmax(high, output[i]);
