@@ -130,6 +130,71 @@ static void same_at_any_sample_rate(const double* sub, size_t num_sub)
     record_free(&fine);
 }
 
+/// With straight envelopes everything inside a viscous play is linear between the samples, so that its exact
+/// step must give the same in one long step as in ten, time constants above and below the step alike.
+static void viscous_plays_are_exact(void)
+{
+    enum { LONG = 40, PART = 10, COUNT = LONG * PART + 1 };
+    double time[COUNT];
+    double input[COUNT];
+    double fine[COUNT];
+    random_t random = random_new(7);
+    model_t classical = random_classical_model(&random);
+    random_input(&random, &classical, fine, LONG + 1);
+    for (size_t i = 0; i < COUNT; ++i) {
+        const double part = (double)(i % PART) / PART;
+        const double to = i / PART < LONG ? fine[i / PART + 1] : 0.0;
+        time[i] = (double)i / PART;
+        input[i] = (1.0 - part) * fine[i / PART] + part * to;
+    }
+    const double taus[] = {0.05, 0.5, 5.0};
+    for (size_t k = 0; k < 3; ++k) {
+        hysteresis_t hysteresis = hysteresis_neutral();
+        hysteresis.play_lag = taus[k];
+        hysteresis_run(&classical, START_NEGATIVE_SATURATION, &hysteresis, time, input, COUNT, fine);
+        hysteresis_state_t state =
+            hysteresis_start(&classical, START_NEGATIVE_SATURATION, &hysteresis, input[0]);
+        for (size_t i = PART; i < COUNT; i += PART) {
+            // Each of the PART steps adds its own rounding.
+            TEST_ASSERT_DOUBLE_WITHIN(PART * LONG * output_rounding(&classical), fine[i],
+                                      hysteresis_step(&state, input[i], 1.0));
+        }
+        hysteresis_state_free(&state);
+    }
+    model_free(&classical);
+}
+
+/// A ramp u = t from rest, in steps below and above the time constants: the lag gives t - tau (1 -
+/// e^(-t/tau)), the mode t - 2 z/w + e^(-z w t) (2 z/w cos(q t) - (1 - 2 z^2)/q sin(q t)) with q = w sqrt(1 -
+/// z^2).
+static void ramps_are_exact_at_any_step(void)
+{
+    enum { COUNT = 12 };
+    double time[COUNT];
+    double lagged[COUNT];
+    double ringing[COUNT];
+    const effect_case_t lag = {"output_lag", NULL, {0.3}, 1.0};
+    const effect_case_t mode = {"resonance", NULL, {0.4, 0.2}, 1.0};
+    const double w = 6.283185307179586 * 0.4;
+    const double q = w * sqrt(1.0 - 0.2 * 0.2);
+    for (size_t i = 0; i < COUNT; ++i) {
+        time[i] = 0.5 * (double)i + (i % 2 == 0 ? 0.0 : 0.3);
+        lagged[i] = time[i];
+        ringing[i] = time[i];
+    }
+    const effect_run_t ramp = {.num_samples = COUNT, .time = time};
+    const effect_use_t lag_use = effect_case_use(&lag);
+    const effect_use_t mode_use = effect_case_use(&mode);
+    effect_use_apply(&ramp, &lag_use, lagged);
+    effect_use_apply(&ramp, &mode_use, ringing);
+    for (size_t i = 0; i < COUNT; ++i) {
+        const double t = time[i];
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, t - 0.3 * (1.0 - exp(-t / 0.3)), lagged[i]);
+        const double free_part = 0.4 / w * cos(q * t) - (1.0 - 0.08) / q * sin(q * t);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, t - 0.4 / w + exp(-0.2 * w * t) * free_part, ringing[i]);
+    }
+}
+
 static void three_times_the_rate_gives_the_same(void)
 {
     same_at_any_sample_rate((const double[]){1.0 / 3.0, 2.0 / 3.0}, 2);
@@ -245,6 +310,8 @@ int main(void)
     RUN_TEST(every_effect_has_its_case);
     RUN_TEST(neutral_parameters_change_nothing);
     RUN_TEST(stepping_plays_is_the_reference);
+    RUN_TEST(viscous_plays_are_exact);
+    RUN_TEST(ramps_are_exact_at_any_step);
     RUN_TEST(three_times_the_rate_gives_the_same);
     RUN_TEST(uneven_samples_give_the_same);
     RUN_TEST(json_gives_the_use_back);
