@@ -67,6 +67,15 @@ static outcome_t write_inverted(const model_run_t* run, const inverted_t* invert
     return outcome;
 }
 
+static void warn_clamped(const record_t* record, size_t num_clamped)
+{
+    if (num_clamped > 0) {
+        message_warning((location_t){.file = record->path},
+                        "%zu of %zu wanted outputs cannot be reached and are clamped", num_clamped,
+                        record->num_samples);
+    }
+}
+
 static outcome_t invert(const model_run_t* run)
 {
     const record_t* record = run->record;
@@ -75,12 +84,14 @@ static outcome_t invert(const model_run_t* run)
         return invertible;
     }
     inverted_t inverted = invert_all(run);
-    if (inverted.num_clamped > 0) {
-        message_warning((location_t){.file = record->path},
-                        "%zu of %zu wanted outputs cannot be reached and are clamped", inverted.num_clamped,
-                        record->num_samples);
+    outcome_t outcome = model_run_check_finite(run, "input", inverted.input);
+    if (outcome == OUTCOME_OK) {
+        outcome = model_run_check_finite(run, "output", inverted.output);
     }
-    const outcome_t outcome = write_inverted(run, &inverted);
+    if (outcome == OUTCOME_OK) {
+        warn_clamped(record, inverted.num_clamped);
+        outcome = write_inverted(run, &inverted);
+    }
     if (outcome == OUTCOME_OK && run->report) {
         printf(run->json ? "{\"samples\": %zu, \"clamped\": %zu, \"max_error\": %.9g}\n"
                          : "%zu samples, %zu clamped, largest round-trip error %.3g of those reached\n",

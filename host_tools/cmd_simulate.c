@@ -77,7 +77,10 @@ static outcome_t simulate(const model_run_t* run)
     effect_run_t over = effect_run_new(run->model, run->record);
     effect_simulate(&over, run->model, run->start, run->uses, run->num_uses, output);
     effect_run_free(&over);
-    const outcome_t outcome = write_simulated(run->output, run->record, output);
+    outcome_t outcome = model_run_check_finite(run, "output", output);
+    if (outcome == OUTCOME_OK) {
+        outcome = write_simulated(run->output, run->record, output);
+    }
     if (outcome == OUTCOME_OK && run->report) {
         report(run, output);
     }

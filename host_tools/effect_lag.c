@@ -9,8 +9,10 @@ lag_step_t lag_step(double step, double tau)
     if (!(tau > 0.0)) {
         return (lag_step_t){0.0, 1.0};
     }
-    const double missing = -expm1(-step / tau);
-    return (lag_step_t){1.0 - missing, 1.0 - missing * tau / step};
+    const double z = step / tau;
+    const double missing = -expm1(-z);
+    // Below 1e-5 the series is right to the last bit, where the difference cancels.
+    return (lag_step_t){1.0 - missing, z < 1e-5 ? z * (0.5 - z / 6.0) : 1.0 - missing / z};
 }
 
 double lag_next(lag_step_t lag, double state, double from, double to)

@@ -90,11 +90,11 @@ static double pulled_up(double w, double from, double to, double step, double la
                 return from + speed * meeting;
             }
         }
-        return to - speed * lag - (below - speed * lag) * exp(-step / lag);
+        return to - below * exp(-step / lag) + speed * (lag * expm1(-step / lag));
     }
     if (to > w) {
         const double left = (to - w) / speed;
-        return to + speed * lag * expm1(-left / lag);
+        return to + speed * (lag * expm1(-left / lag));
     }
     return w;
 }
@@ -349,6 +349,32 @@ double hysteresis_inverse(const hysteresis_state_t* state, double wanted, double
         }
     }
     return far;
+}
+
+bool hysteresis_keeps_plays(const hysteresis_t* hysteresis)
+{
+    return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) && !differs(hysteresis->moving) &&
+           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+}
+
+void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
+                          const double* sum, size_t num_samples, double* nonhysteretic)
+{
+    hysteresis_state_t state = {.model = model, .hysteresis = hysteresis};
+    set_sum_range(&state);
+    double travel = 0.0;
+    double correction = 0.0;
+    for (size_t i = 0; i < num_samples; ++i) {
+        if (i > 0) {
+            const double move = fabs(input[i] - input[i - 1]);
+            correction +=
+                (increment_factor(&state, 0.5 * (input[i] + input[i - 1]), travel + 0.5 * move) - 1.0) *
+                (sum[i] - sum[i - 1]);
+            travel += move;
+        }
+        nonhysteretic[i] += sum[i] + correction +
+                            (amplitude_factor(&state, input[i], travel) - 1.0) * (sum[i] - state.sum_middle);
+    }
 }
 
 void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hysteresis, const double* time,

@@ -2,6 +2,7 @@
 #include "input_file.h"
 #include "model_file.h"
 #include "output_file.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,20 @@ typedef struct {
     double sample_rate;
     int json;
 } options_t;
+
+outcome_t model_run_check_finite(const model_run_t* run, const char* what, const double* values)
+{
+    for (size_t i = 0; i < run->record->num_samples; ++i) {
+        if (!isfinite(values[i])) {
+            return message_error(
+                OUTCOME_NUMERICAL, (location_t){.file = run->model_path},
+                "the %s is not finite at sample %zu: the model's effects are beyond what can be "
+                "computed over this record",
+                what, i + 1);
+        }
+    }
+    return OUTCOME_OK;
+}
 
 static outcome_t check_streams(const options_t* options, const char* const* arguments)
 {

@@ -20,6 +20,10 @@ typedef struct {
 /// What the verb does with them.
 typedef outcome_t model_run_work_t(const model_run_t* run);
 
+/// OUTCOME_NUMERICAL with a message where a value is no number, which only effects with extreme parameters
+/// bring about.
+outcome_t model_run_check_finite(const model_run_t* run, const char* what, const double* values);
+
 /// Parses the arguments, reads model and record (with the columns that `needs` asks for) and calls `work`.
 outcome_t model_run(const command_t* command, record_options_t needs, model_run_work_t* work, int argc,
                     const char** argv);
