@@ -8,6 +8,7 @@
 #ifndef HYST_HOST_EFFECT_H
 #define HYST_HOST_EFFECT_H
 
+#include "fast_plays.h"
 #include "hysteresis.h"
 #include "message.h"
 #include "model.h"
@@ -30,6 +31,7 @@ typedef struct {
     double input_rate;             ///< the largest |d input/dt| between two samples
     double travel;                 ///< the sum of |d input|
     double largest_radius;         ///< of a play that the model's range can move, envelope units
+    const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
 } effect_run_t;
 
 enum { EFFECT_MAX_PARAMETERS = 10 };

@@ -193,6 +193,18 @@ hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses
     return hysteresis;
 }
 
+static void run_fast(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
+                     const double* input, double* output)
+{
+    double* sum = xmalloc(run->num_samples * sizeof(double));
+    fast_plays_run(run->fast, input, run->num_samples, sum);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        output[i] = fast_plays_nonhysteretic(run->fast, input[i]);
+    }
+    hysteresis_from_sums(model, hysteresis, input, sum, run->num_samples, output);
+    free(sum);
+}
+
 void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
                                 const effect_use_t* uses, size_t num_uses, double* output)
 {
@@ -203,7 +215,11 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     double* drive = memcpy(xmalloc(size), run->input, size);
     apply_stage(run, uses, num_uses, EFFECT_DRIVE, drive);
     hysteresis_t hysteresis = effect_hysteresis(run, uses, num_uses);
-    hysteresis_run(model, start, &hysteresis, run->time, drive, run->num_samples, output);
+    if (run->fast != NULL && hysteresis_keeps_plays(&hysteresis)) {
+        run_fast(run, model, &hysteresis, drive, output);
+    } else {
+        hysteresis_run(model, start, &hysteresis, run->time, drive, run->num_samples, output);
+    }
     hysteresis_free(&hysteresis);
     free(drive);
 }

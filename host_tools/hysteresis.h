@@ -26,6 +26,12 @@ typedef struct {
 hysteresis_t hysteresis_neutral(void);
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
 void hysteresis_free(hysteresis_t* hysteresis);
+/// Whether the plays themselves run as in the plain model and only what becomes of their sum differs.
+bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
+/// The output of such a run whose plays' sums are known: sum[num_samples], nonhysteretic[num_samples],
+/// overwritten with the output.
+void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
+                          const double* sum, size_t num_samples, double* nonhysteretic);
 /// output[num_samples] for input[num_samples] at time[num_samples] (seconds, increasing).
 void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hysteresis, const double* time,
                     const double* input, size_t num_samples, double* output);
