@@ -1,8 +1,14 @@
 #include "command.h"
 #include "diagnose.h"
+#include "diagnose_chain.h"
+#include "diagnose_json.h"
+#include "diagnose_report.h"
 #include "diagnose_structure.h"
+#include "diagnose_text.h"
 #include "model_file.h"
+#include "output_file.h"
 #include "reference.h"
+#include "report_plot.h"
 #include <cblas.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,118 +20,14 @@ typedef struct {
     char* calibration;
     char* test;
     char* next_input;
+    char* report;
+    char* chain_text; ///< what popt finds of a --chain that is not whole
+    chain_paths_t chain;
     char* initial;
     char* columns;
     double sample_rate;
     int json;
 } options_t;
-
-/// A cause's effects by name; an exogenous one with its column.
-static json_t* names_of(const hypothesis_t* hypothesis)
-{
-    json_t* names = json_array();
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        const effect_use_t* use = &hypothesis->use[i];
-        json_array_append_new(names, use->column[0] != '\0'
-                                         ? json_sprintf("%s:%s", use->effect->name, use->column)
-                                         : json_string(use->effect->name));
-    }
-    return names;
-}
-
-static bool is_transferable(const hypothesis_t* hypothesis)
-{
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        if (!hypothesis->use[i].effect->transferable) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static json_t* region_json(const region_t* region)
-{
-    json_t* object = json_pack("{s:s}", "axis", where_axis_name(region->axis));
-    if (region->axis == AXIS_DIRECTION) {
-        json_object_set_new(object, "value",
-                            json_string(region->from > 0   ? "ascending"
-                                        : region->from < 0 ? "descending"
-                                                           : "holding"));
-    } else {
-        json_object_set_new(object, "from", json_real(region->from));
-        json_object_set_new(object, "to", json_real(region->to));
-    }
-    json_object_set_new(object, "share", json_real(region->share));
-    json_object_set_new(object, "lift", json_real(region->lift));
-    json_object_set_new(object, "share_low", json_real(region->share_low));
-    json_object_set_new(object, "share_high", json_real(region->share_high));
-    return object;
-}
-
-static json_t* parameters_of(const hypothesis_t* hypothesis)
-{
-    json_t* list = json_array();
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        json_array_append_new(list, effect_use_to_json(&hypothesis->use[i]));
-    }
-    return list;
-}
-
-static json_t* cause_json(const cause_t* cause)
-{
-    json_t* object =
-        json_pack("{s:o, s:f, s:f, s:f, s:f, s:f}", "effects", names_of(cause->hypothesis), "probability",
-                  cause->probability, "rmse_after", cause->rmse_after, "shrink", cause->shrink, "shrink_low",
-                  cause->shrink_low, "shrink_high", cause->shrink_high);
-    json_object_set_new(object, "parameters", parameters_of(cause->hypothesis));
-    if (!is_transferable(cause->hypothesis)) {
-        json_object_set_new(object, "transferable", json_false());
-    }
-    return object;
-}
-
-static json_t* verdict_effects(const diagnosis_t* d)
-{
-    return d->is_unknown ? json_pack("[s]", "unknown") : names_of(d->cause[0].hypothesis);
-}
-
-static json_t* verdict_json(const diagnosis_t* d)
-{
-    json_t* sets = json_array();
-    for (size_t k = 0; k < d->num_indistinguishable; k++) {
-        json_array_append_new(sets, names_of(d->cause[d->indistinguishable[k]].hypothesis));
-    }
-    return json_pack("{s:o, s:b, s:o, s:s}", "effects", verdict_effects(d), "confident", d->confident,
-                     "indistinguishable", sets, "advice", d->advice);
-}
-
-static json_t* diagnosis_json(const diagnosis_t* d)
-{
-    json_t* where = json_array();
-    for (size_t i = 0; i < d->num_regions; i++) {
-        json_array_append_new(where, region_json(&d->region[i]));
-    }
-    json_t* causes = json_array();
-    for (size_t k = 0; k < d->num_causes && k < 10; k++) {
-        json_array_append_new(causes, cause_json(&d->cause[k]));
-    }
-    return json_pack("{s:s, s:i, s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o}", "format", "hyst-diagnosis",
-                     "version", 1, "gap", "rmse", d->rmse, "relative", d->relative, "noise", d->noise,
-                     "noise_floor", d->noise_floor, "closable", d->closable, "where", where, "causes", causes,
-                     "verdict", verdict_json(d));
-}
-
-static void print_names(const hypothesis_t* hypothesis)
-{
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        const effect_use_t* use = &hypothesis->use[i];
-        printf("%s%s%s%s", i > 0 ? " + " : "", use->effect->name, use->column[0] != '\0' ? ":" : "",
-               use->column);
-    }
-    if (hypothesis->num_uses == 0) {
-        printf("nothing beside noise");
-    }
-}
 
 static void print_report(const diagnosis_t* d, const model_t* model)
 {
@@ -138,18 +40,15 @@ static void print_report(const diagnosis_t* d, const model_t* model)
     }
     for (size_t k = 0; k < d->num_causes && k < 5; k++) {
         const cause_t* cause = &d->cause[k];
-        printf("cause: %4.0f %%  ", 100 * cause->probability);
-        print_names(cause->hypothesis);
-        printf(", leaves %.6g, shrink %.0f %% (%.0f to %.0f %%)\n", cause->rmse_after, 100 * cause->shrink,
+        char names[400];
+        text_names(cause->hypothesis, names, sizeof names);
+        printf("cause: %4.0f %%  %s, leaves %.6g, shrink %.0f %% (%.0f to %.0f %%)\n",
+               100 * cause->probability, names, cause->rmse_after, 100 * cause->shrink,
                100 * cause->shrink_low, 100 * cause->shrink_high);
     }
-    printf("verdict: ");
-    if (d->is_unknown) {
-        printf("unknown: no named effect explains it");
-    } else {
-        print_names(d->cause[0].hypothesis);
-    }
-    printf("%s\n", d->confident ? "" : " (not confident)");
+    char verdict[400];
+    text_verdict(d, verdict, sizeof verdict);
+    printf("verdict: %s%s\n", verdict, d->confident ? "" : " (not confident)");
     if (d->advice[0] != '\0') {
         printf("advice: %s\n", d->advice);
     }
@@ -175,16 +74,7 @@ static outcome_t calibrate(const options_t* given, const model_t* model, record_
         return outcome;
     }
     options->calibration = record;
-    double* difference = xmalloc(record->num_samples * sizeof *difference);
-    reference_run(model, options->start, record->input, record->num_samples, difference);
-    double sum = 0;
-    for (size_t t = 0; t < record->num_samples; t++) {
-        difference[t] = record->output[t] - difference[t];
-        sum += difference[t] * difference[t];
-    }
-    options->calibration_rmse = sqrt(sum / (double)record->num_samples);
-    options->calibration_noise = white_noise(difference, record->num_samples);
-    free(difference);
+    options->calibration_rmse = chain_misfit(model, options->start, record, &options->calibration_noise);
     return OUTCOME_OK;
 }
 
@@ -194,7 +84,7 @@ static outcome_t write_augmented(const char* path, const model_t* model, const d
     model_t augmented = model_copy(model);
     if (!d->is_unknown && d->cause[0].hypothesis->num_uses > 0) {
         json_decref(augmented.effects);
-        augmented.effects = parameters_of(d->cause[0].hypothesis);
+        augmented.effects = parameters_to_json(d->cause[0].hypothesis);
     }
     const outcome_t outcome = model_write(path, &augmented);
     model_free(&augmented);
@@ -258,40 +148,116 @@ static outcome_t write_next_input(const char* path, const diagnosis_t* d)
     return record_write(path, columns, 2, d->next.num_samples);
 }
 
-static outcome_t report(const options_t* given, const model_t* model, start_t start, const diagnosis_t* d)
+/// What a run found out.
+typedef struct {
+    diagnosis_t diagnosis;
+    realised_t realised;
+    bool has_budget;
+    budget_t budget;
+} findings_t;
+
+static json_t* findings_json(const findings_t* found)
 {
-    realised_t realised = {0};
-    outcome_t outcome = realise(given, model, start, d, &realised);
-    if (outcome == OUTCOME_OK && given->output != NULL) {
-        outcome = write_augmented(given->output, model, d);
+    json_t* object = diagnosis_to_json(&found->diagnosis);
+    const realised_t* realised = &found->realised;
+    if (realised->given) {
+        json_object_set_new(object, "test",
+                            json_pack("{s:f, s:f, s:f}", "rmse", realised->before, "rmse_after",
+                                      realised->after, "shrink", 1 - realised->after / realised->before));
     }
-    if (outcome == OUTCOME_OK && given->next_input != NULL) {
-        outcome = write_next_input(given->next_input, d);
+    if (found->has_budget) {
+        json_object_set_new(object, "budget", budget_to_json(&found->budget));
+        json_object_set_new(
+            object, "budget_total",
+            json_pack("{s:f, s:f}", "rmse", found->budget.total, "cross_share", found->budget.cross_share));
     }
-    if (outcome != OUTCOME_OK) {
-        return outcome;
+    return object;
+}
+
+static void print_budget(const budget_t* budget)
+{
+    printf("budget: the firmware's rmse is %.6g; of its square:\n", budget->total);
+    for (size_t i = 0; i < BUDGET_PARTS; i++) {
+        const budget_entry_t* entry = &budget->entry[i];
+        printf("budget: %8.3f %%  %-14s %.6g  %s\n", 100 * entry->share, budget_part_name(entry->part),
+               entry->rmse, budget_part_text(entry->part));
     }
+    printf("budget: %8.3f %%  cross terms: what the parts add or cancel between them\n",
+           100 * budget->cross_share);
+}
+
+static void print_findings(const options_t* given, const model_t* model, const findings_t* found)
+{
     if (given->json) {
-        json_t* object = diagnosis_json(d);
-        if (realised.given) {
-            json_object_set_new(object, "test",
-                                json_pack("{s:f, s:f, s:f}", "rmse", realised.before, "rmse_after",
-                                          realised.after, "shrink", 1 - realised.after / realised.before));
-        }
+        json_t* object = findings_json(found);
         json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
         putchar('\n');
         json_decref(object);
-    } else {
-        print_report(d, model);
-        if (realised.given) {
-            printf("test: rmse %.6g before, %.6g after, shrink %.0f %%\n", realised.before, realised.after,
-                   100 * (1 - realised.after / realised.before));
-        }
+        return;
     }
-    return OUTCOME_OK;
+    if (given->report != NULL && output_is_stdout(given->report)) {
+        return;
+    }
+    print_report(&found->diagnosis, model);
+    if (found->realised.given) {
+        printf("test: rmse %.6g before, %.6g after, shrink %.0f %%\n", found->realised.before,
+               found->realised.after, 100 * (1 - found->realised.after / found->realised.before));
+    }
+    if (found->has_budget) {
+        print_budget(&found->budget);
+    }
 }
 
-static outcome_t run_on(const options_t* given, const model_t* model, const char* path)
+static outcome_t write_files(const options_t* given, const model_t* model, const findings_t* found,
+                             const report_t* report)
+{
+    outcome_t outcome = OUTCOME_OK;
+    if (given->report != NULL) {
+        outcome = report_write(given->report, report);
+    }
+    if (outcome == OUTCOME_OK && given->output != NULL) {
+        outcome = write_augmented(given->output, model, &found->diagnosis);
+    }
+    if (outcome == OUTCOME_OK && given->next_input != NULL) {
+        outcome = write_next_input(given->next_input, &found->diagnosis);
+    }
+    return outcome;
+}
+
+/// The diagnosis, what else was asked for, and only then the files.
+static outcome_t find_and_report(const options_t* given, const char** paths, const model_t* model,
+                                 const record_t* record, const diagnose_options_t* options,
+                                 const chain_t* chain)
+{
+    findings_t found = {.has_budget = given->chain.full != NULL};
+    outcome_t outcome = diagnose(model, record, options, &found.diagnosis);
+    if (outcome == OUTCOME_OK) {
+        outcome = realise(given, model, options->start, &found.diagnosis, &found.realised);
+    }
+    if (outcome == OUTCOME_OK && found.has_budget) {
+        outcome = chain_budget(chain, record, options, &found.diagnosis, &found.budget);
+    }
+    if (outcome == OUTCOME_OK) {
+        effect_run_t run = effect_run_new(model, record);
+        const report_t report = {.model = model,
+                                 .model_path = paths[0],
+                                 .record_path = paths[1],
+                                 .run = &run,
+                                 .measured = record->output,
+                                 .diagnosis = &found.diagnosis,
+                                 .budget = found.has_budget ? &found.budget : NULL};
+        outcome = write_files(given, model, &found, &report);
+        effect_run_free(&run);
+    }
+    if (outcome == OUTCOME_OK) {
+        print_findings(given, model, &found);
+    }
+    diagnosis_free(&found.diagnosis);
+    return outcome;
+}
+
+static outcome_t run_on(const options_t* given, const model_t* model, const char** paths,
+                        const chain_t* chain)
 {
     record_t record = {0};
     const record_options_t wanted = {.columns = given->columns,
@@ -305,19 +271,30 @@ static outcome_t run_on(const options_t* given, const model_t* model, const char
         outcome = calibrate(given, model, &calibration, &options);
     }
     if (outcome == OUTCOME_OK) {
-        outcome = record_read(path, &wanted, &record);
-    }
-    diagnosis_t diagnosis = {0};
-    if (outcome == OUTCOME_OK) {
-        outcome = diagnose(model, &record, &options, &diagnosis);
+        outcome = record_read(paths[1], &wanted, &record);
     }
     if (outcome == OUTCOME_OK) {
-        outcome = report(given, model, options.start, &diagnosis);
+        outcome = find_and_report(given, paths, model, &record, &options, chain);
     }
-    diagnosis_free(&diagnosis);
     record_free(&calibration);
     record_free(&record);
     return outcome;
+}
+
+/// What can be refused before anything is read or fitted.
+static outcome_t check_options(const options_t* given)
+{
+    if (given->chain_text != NULL) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "--chain takes three words, %s", CHAIN_ARGUMENTS);
+    }
+    if (given->report == NULL) {
+        return OUTCOME_OK;
+    }
+    if (given->json && output_is_stdout(given->report)) {
+        return message_error(OUTCOME_USAGE, NOWHERE,
+                             "--json and --report both go to stdout, expected a file for the report");
+    }
+    return plot_check();
 }
 
 static outcome_t run(const options_t* given, const char** paths)
@@ -325,10 +302,18 @@ static outcome_t run(const options_t* given, const char** paths)
     openblas_set_num_threads(1);
     model_t model = model_new("");
     model_free(&model);
-    outcome_t outcome = model_read(paths[0], &model);
+    chain_t chain = {0};
+    outcome_t outcome = check_options(given);
     if (outcome == OUTCOME_OK) {
-        outcome = run_on(given, &model, paths[1]);
+        outcome = model_read(paths[0], &model);
     }
+    if (outcome == OUTCOME_OK && given->chain.full != NULL) {
+        outcome = chain_read(&given->chain, &chain);
+    }
+    if (outcome == OUTCOME_OK) {
+        outcome = run_on(given, &model, paths, &chain);
+    }
+    chain_free(&chain);
     model_free(&model);
     return outcome;
 }
@@ -344,6 +329,11 @@ outcome_t cmd_diagnose(int argc, const char** argv)
          "another record: the realised shrink beside the predicted one", "RECORD"},
         {"next-input", 0, POPT_ARG_STRING, &given.next_input, 0,
          "writes the experiment that the advice names", "RECORD"},
+        {"report", 0, POPT_ARG_STRING, &given.report, 0,
+         "the diagnosis with plots, as one file (needs gnuplot)", "FILE.html"},
+        {"chain", 0, POPT_ARG_STRING, &given.chain_text, 0,
+         "also the firmware's error budget on the record, from the full model to the header (f32)",
+         CHAIN_ARGUMENTS},
         {"initial", 0, POPT_ARG_STRING, &given.initial, 0, "the memory at the start",
          "negative-saturation|positive-saturation|demagnetised|model"},
         RECORD_OPTIONS(&given.columns, &given.sample_rate),
@@ -356,10 +346,15 @@ outcome_t cmd_diagnose(int argc, const char** argv)
                                "record that their fit has not seen."};
     const char* paths[2] = {NULL, NULL};
     bool finished = false;
-    outcome_t outcome = command_parse(&command, options, argc, argv, paths, &finished);
+    const char** rest = xcalloc((size_t)argc + 1, sizeof *rest);
+    const int num_rest = chain_take(argc, argv, rest, &given.chain);
+    outcome_t outcome = command_parse(&command, options, num_rest, rest, paths, &finished);
     if (outcome == OUTCOME_OK && !finished) {
         outcome = run(&given, paths);
     }
+    free(rest);
+    free(given.report);
+    free(given.chain_text);
     free(given.output);
     free(given.calibration);
     free(given.test);
