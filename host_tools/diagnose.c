@@ -11,7 +11,7 @@ enum { SINGLE_EVALUATIONS = 40, PAIR_EVALUATIONS = 24, LEADING_SINGLES = 5, REFI
 
 /// Part of the gap's energy that one more effect beside another must gain: what the first one's own physics,
 /// a little other than the plant's, leaves is no second effect.
-static const double further_part = 1e-3;
+static const double further_part = 3e-3;
 /// Independent stretches that a record counts for at most when hypotheses are weighed against each other.
 static const double most_evidence = 80;
 
@@ -98,7 +98,7 @@ static scale_t scale_of(const work_t* w, const diagnose_options_t* options)
     const double calibration = options->calibration_rmse * options->calibration_rmse;
     scale_t scale = {.noise = noise * noise};
     scale.misfit = fmax(calibration - scale.noise, 0);
-    scale.penalty = 0.02 * scale.noise + 0.5 * scale.misfit;
+    scale.penalty = 0.02 * scale.noise + 0.8 * scale.misfit;
     scale.further = scale.penalty + further_part * mean_square(&w->hypothesis[0]);
     scale.doubt = 0.01 * scale.noise + 0.3 * scale.misfit;
     return scale;
@@ -126,6 +126,24 @@ static double mean_of(const double* values, size_t count)
     return mean;
 }
 
+/// Parameters that no gradient leads to: a disturbance's frequency, from the spectrum of what `predicted` leaves.
+static bool guess_parameters(const work_t* w, const double* predicted, effect_use_t* use)
+{
+    if (strcmp(use->effect->name, "periodic_disturbance") != 0) {
+        return false;
+    }
+    const effect_run_t* run = w->gap.run;
+    double* difference = xmalloc(run->num_samples * sizeof *difference);
+    for (size_t t = 0; t < run->num_samples; t++) {
+        difference[t] = w->gap.output[t] - predicted[t];
+    }
+    const sinusoid_t peak = strongest_sinusoid(run->time, difference, run->num_samples);
+    free(difference);
+    const double guess[] = {peak.frequency, peak.sine, peak.cosine};
+    memcpy(use->parameter, guess, sizeof guess);
+    return true;
+}
+
 static void try_single(work_t* w, const effect_t* effect, const char* column)
 {
     if (w->count > MAX_SINGLES) {
@@ -140,7 +158,8 @@ static void try_single(work_t* w, const effect_t* effect, const char* column)
         }
     }
     hypothesis_t* hypothesis = add(w, &use, 1);
-    hypothesis_search(hypothesis, &w->gap, SINGLE_EVALUATIONS);
+    const bool guessed = guess_parameters(w, w->hypothesis[0].predicted, &hypothesis->use[0]);
+    hypothesis_search(hypothesis, &w->gap, guessed, SINGLE_EVALUATIONS);
     hypothesis_judge(hypothesis, &w->gap);
 }
 
@@ -217,6 +236,7 @@ static void try_pairs(work_t* w)
             hypothesis_t from_start = hypothesis_of(uses, 2);
             hypothesis_set_start(&from_start, &w->gap, 0);
             from_start.use[0] = uses[0];
+            (void)guess_parameters(w, leader[i].predicted, &from_start.use[1]);
             hypothesis_fit(&from_start, &w->gap, -1, PAIR_EVALUATIONS);
             pair[count++] = from_start.fit_rmse < from_singles.fit_rmse ? from_start : from_singles;
         }
@@ -224,7 +244,7 @@ static void try_pairs(work_t* w)
     qsort(pair, count, sizeof *pair, by_fit);
     for (size_t k = 0; k < count && k < REFINED_PAIRS; k++) {
         hypothesis_t* hypothesis = add(w, pair[k].use, 2);
-        hypothesis_search(hypothesis, &w->gap, SINGLE_EVALUATIONS);
+        hypothesis_search(hypothesis, &w->gap, false, SINGLE_EVALUATIONS);
         if (pair[k].fit_rmse < hypothesis->fit_rmse) {
             memcpy(hypothesis->use, pair[k].use, sizeof hypothesis->use);
             hypothesis_fit(hypothesis, &w->gap, -1, SINGLE_EVALUATIONS);
@@ -410,7 +430,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
                 .calibration = options->calibration};
     w.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *w.hypothesis);
     hypothesis_t* plain = add(&w, NULL, 0);
-    hypothesis_search(plain, &w.gap, 1);
+    hypothesis_search(plain, &w.gap, false, 1);
     hypothesis_judge(plain, &w.gap);
     w.scale = scale_of(&w, options);
     try_singles(&w);

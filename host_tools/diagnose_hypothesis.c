@@ -219,13 +219,15 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
     search_free(&s);
 }
 
-void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
+void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations)
 {
     hypothesis_t best = *hypothesis;
     best.fit_rmse = HUGE_VAL;
-    for (int start = 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
+    for (int start = guessed ? -1 : 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
         hypothesis_t trial = *hypothesis;
-        hypothesis_set_start(&trial, gap, start);
+        if (start >= 0) {
+            hypothesis_set_start(&trial, gap, start);
+        }
         hypothesis_fit(&trial, gap, -1, max_evaluations);
         if (trial.fit_rmse < best.fit_rmse) {
             best = trial;

@@ -39,8 +39,8 @@ bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b);
 void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start);
 /// Fits from the present parameters to all blocks but those of `held_out` (-1: to all); sets fit_rmse.
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
-/// Fits from all starts, keeps the best, fills `predicted`.
-void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);
+/// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
+void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
 /// Held-out errors, from the present parameters.
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap);
 
