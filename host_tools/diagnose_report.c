@@ -13,6 +13,9 @@ static const char measured_colour[] = "#8b919b";
 static const char before_colour[] = "#d9822b";
 static const char after_colour[] = "#2f8fd8";
 
+static const char before_legend[] = "model";
+static const char after_legend[] = "model with effect";
+
 enum { MOST_CAUSES = 8 };
 
 /// What a run's plots are drawn from, each [num_samples].
@@ -91,19 +94,54 @@ static outcome_t draw(const drawing_t* drawing, plot_t plot, const plot_series_t
     return outcome;
 }
 
-/// Measured, before and after over x.
-static outcome_t draw_outputs(const drawing_t* drawing, const plot_t* plot, const double* x)
+/// The measured output's line is broad, so that a model that meets it lies within.
+static plot_series_t measured_series(const drawing_t* drawing, const double* x)
 {
-    const plot_series_t series[] = {{"measured", measured_colour, x, drawing->report->measured},
-                                    {"model", before_colour, x, drawing->before},
-                                    {"model with the effect", after_colour, x, drawing->after}};
-    return draw(drawing, *plot, series, drawing->after != NULL ? 3 : 2);
+    return (plot_series_t){"measured", measured_colour, 3.5, x, drawing->report->measured};
+}
+
+static outcome_t draw_over_time(const drawing_t* drawing, const char* output)
+{
+    const plot_t plot = {
+        .id = "overTime", .x_label = "time [s]", .y_label = output, .width = 1000, .height = 330};
+    const double* time = drawing->report->run->time;
+    const plot_series_t series[] = {measured_series(drawing, time),
+                                    {before_legend, before_colour, 1.3, time, drawing->before},
+                                    {after_legend, after_colour, 1.3, time, drawing->after}};
+    return draw(drawing, plot, series, drawing->after != NULL ? 3 : 2);
+}
+
+/// Beside each other: the model as it is, and with the verdict's effects.
+static outcome_t draw_loops(const drawing_t* drawing, const char* input, const char* output)
+{
+    // Thinned to few of many samples, a path's points no longer follow each other along a loop.
+    const bool points = drawing->report->run->num_samples > 5 * (size_t)PLOT_MOST_POINTS;
+    plot_t plot = {.id = "loopsBefore",
+                   .x_label = input,
+                   .y_label = output,
+                   .width = drawing->after != NULL ? 500 : 1000,
+                   .height = 400,
+                   .points = points};
+    const double* x = drawing->report->run->input;
+    plot_series_t series[] = {measured_series(drawing, x),
+                              {before_legend, before_colour, points ? 0.25 : 1, x, drawing->before}};
+    series[0].width = points ? 0.4 : 2.5;
+    fputs(drawing->after != NULL ? "<div class=\"two\">\n" : "<div>\n", drawing->out);
+    outcome_t outcome = draw(drawing, plot, series, 2);
+    if (outcome == OUTCOME_OK && drawing->after != NULL) {
+        plot.id = "loopsAfter";
+        series[1] = (plot_series_t){after_legend, after_colour, series[1].width, x, drawing->after};
+        outcome = draw(drawing, plot, series, 2);
+    }
+    fputs("</div>\n", drawing->out);
+    return outcome;
 }
 
 static outcome_t draw_residuals(const drawing_t* drawing, const plot_t* plot, const double* x)
 {
-    const plot_series_t series[] = {{"model", before_colour, x, drawing->residual_before},
-                                    {"model with the effect", after_colour, x, drawing->residual_after}};
+    const plot_series_t series[] = {
+        {before_legend, before_colour, plot->points ? 0.25 : 1.3, x, drawing->residual_before},
+        {after_legend, after_colour, plot->points ? 0.25 : 1.3, x, drawing->residual_after}};
     return draw(drawing, *plot, series, drawing->after != NULL ? 2 : 1);
 }
 
@@ -119,18 +157,12 @@ static outcome_t draw_plots(const drawing_t* drawing)
     with_unit("output", report->model->output_unit, "", output, sizeof output);
     with_unit("|d input/dt|", report->model->input_unit, "/s", rate, sizeof rate);
     with_unit("measured - model", report->model->output_unit, "", residual, sizeof residual);
-    // Thinned to few of many samples, a path's points no longer follow each other along a loop.
-    const bool sparse = report->run->num_samples > 5 * PLOT_MOST_POINTS;
-    const plot_t over_time = {
-        .id = "overTime", .x_label = "time [s]", .y_label = output, .width = 1000, .height = 330};
-    const plot_t loops = {
-        .id = "loops", .x_label = input, .y_label = output, .width = 1000, .height = 460, .points = sparse};
     plot_t residuals = {
         .id = "residualTime", .x_label = "time [s]", .y_label = residual, .width = 1000, .height = 280};
     html_element(drawing->out, "h2", "Measured against model");
-    outcome_t outcome = draw_outputs(drawing, &over_time, report->run->time);
+    outcome_t outcome = draw_over_time(drawing, output);
     if (outcome == OUTCOME_OK) {
-        outcome = draw_outputs(drawing, &loops, report->run->input);
+        outcome = draw_loops(drawing, input, output);
     }
     html_element(drawing->out, "h2", "Residual");
     if (outcome == OUTCOME_OK) {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# install.sh [report] [tests] [target]: makes sure that what the build needs is on this machine. As root on Debian it installs
-# with apt-get; otherwise it names the packages and exits with 5. Says nothing when all is there.
+# install.sh [report] [tests] [target]: makes sure that what the build needs is on this machine. As root on Debian it
+# installs with apt-get; otherwise it names the packages and exits with 5. Says nothing when all is there.
 set -eu
 
 have_command() {

@@ -159,6 +159,19 @@ static void put_label(FILE* script, char axis, const char* label)
     fputs(" noenhanced textcolor rgb '#7d838c'\n", script);
 }
 
+/// The plot command's part for one series; a key of its own, whose points are large enough to tell their
+/// colour.
+static void put_curve(FILE* script, const plot_t* plot, size_t index)
+{
+    const plot_series_t* series = &plot->series[index];
+    const char* style = plot->points ? "points pointtype 7 pointsize" : "lines linewidth";
+    fprintf(script, "%s$series%zu using 1:2 with %s %.3g linecolor rgb '%s' notitle, ",
+            index == 0 ? "plot " : ", ", index, style, series->width, series->colour);
+    fprintf(script, "NaN with %s %.3g linecolor rgb '%s' title ", style, plot->points ? 0.8 : 2.5,
+            series->colour);
+    put_quoted(script, series->legend);
+}
+
 static void put_script(FILE* script, const plot_t* plot)
 {
     fprintf(script, "set terminal svg size %d,%d dynamic font 'sans-serif,12' name '%s'\n", plot->width,
@@ -166,7 +179,7 @@ static void put_script(FILE* script, const plot_t* plot)
     fputs("set encoding utf8\n"
           "set border 3 linecolor rgb '#7d838c'\n"
           "set tics nomirror out scale 0.5 textcolor rgb '#7d838c'\n"
-          "set key outside top left horizontal noenhanced textcolor rgb '#7d838c' samplen 2\n"
+          "set key outside top left horizontal reverse Left noenhanced textcolor rgb '#7d838c' samplen 1.5\n"
           "set xzeroaxis linecolor rgb '#7d838c' dashtype 3\n",
           script);
     put_label(script, 'x', plot->x_label);
@@ -175,10 +188,7 @@ static void put_script(FILE* script, const plot_t* plot)
         put_series(script, &plot->series[i], plot->num_samples, i);
     }
     for (size_t i = 0; i < plot->num_series; i++) {
-        fprintf(script, "%s$series%zu using 1:2 with %s linecolor rgb '%s' title ", i == 0 ? "plot " : ", ",
-                i, plot->points ? "points pointtype 7 pointsize 0.25" : "lines linewidth 1.3",
-                plot->series[i].colour);
-        put_quoted(script, plot->series[i].legend);
+        put_curve(script, plot, i);
     }
     fputc('\n', script);
 }

@@ -8,6 +8,7 @@
 typedef struct {
     const char* legend;
     const char* colour; ///< "#rrggbb", legible on light and dark
+    double width;       ///< of a line, or a point's size
     const double* x;    ///< [num_samples] finite
     const double* y;    ///< [num_samples] finite
 } plot_series_t;
