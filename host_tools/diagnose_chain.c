@@ -8,16 +8,34 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// The words of the --chain that begins at argv[0], "--chain A B C" or "--chain=A B C"; returns how many
+/// arguments it takes, 0 when it is none or not whole.
+static int chain_words(int argc, const char** argv, chain_paths_t* paths)
+{
+    static const char joined[] = "--chain=";
+    const bool is_joined = strncmp(argv[0], joined, sizeof joined - 1) == 0;
+    const int length = is_joined ? 3 : 4;
+    if (argc < length || !(is_joined || strcmp(argv[0], "--chain") == 0)) {
+        return 0;
+    }
+    const char** rest = argv + length - 2;
+    const chain_paths_t found = {is_joined ? argv[0] + sizeof joined - 1 : argv[1], rest[0], rest[1]};
+    if (found.full[0] == '-' || found.compressed[0] == '-' || found.scalar[0] == '-') {
+        return 0;
+    }
+    *paths = found;
+    return length;
+}
+
 int chain_take(int argc, const char** argv, const char** rest, chain_paths_t* paths)
 {
     int count = 0;
     bool options_end = false;
     for (int i = 0; i < argc; i++) {
         options_end = options_end || strcmp(argv[i], "--") == 0;
-        const bool is_chain = !options_end && strcmp(argv[i], "--chain") == 0 && i + 3 < argc;
-        if (is_chain && argv[i + 1][0] != '-' && argv[i + 2][0] != '-' && argv[i + 3][0] != '-') {
-            *paths = (chain_paths_t){argv[i + 1], argv[i + 2], argv[i + 3]};
-            i += 3;
+        const int taken = options_end ? 0 : chain_words(argc - i, argv + i, paths);
+        if (taken > 0) {
+            i += taken - 1;
         } else {
             rest[count++] = argv[i];
         }

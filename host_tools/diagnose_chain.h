@@ -21,8 +21,8 @@ typedef struct {
     model_t compressed;
 } chain_t;
 
-/// Takes "--chain A B C" out of argv[argc], which popt could not read, and copies the others to
-/// rest[argc + 1]; returns how many. A --chain with fewer words stays.
+/// Takes "--chain A B C" (or "--chain=A B C") out of argv[argc], which popt could not read, and copies the
+/// others to rest[argc + 1]; returns how many. A --chain with fewer words stays.
 int chain_take(int argc, const char** argv, const char** rest, chain_paths_t* paths);
 
 /// Reads both models and checks that firmware can be made of them. Free what it holds whatever it returns.
