@@ -112,7 +112,7 @@ static double part(const budget_t* budget, budget_part_t wanted)
         }
     }
     TEST_FAIL_MESSAGE("the budget leaves a part out");
-    return NAN;
+    return (double)NAN;
 }
 
 static double rms_difference(const double* a, const double* b)
