@@ -4,7 +4,6 @@
 #include "input_file.h"
 #include "model_file.h"
 #include "output_file.h"
-#include "output_range.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,11 +44,11 @@ static outcome_t check_options(const options_t* options)
     return OUTCOME_OK;
 }
 
-/// Output units; 1e-4 of the output's range where nothing is given.
+/// Output units.
 static outcome_t find_table_error(const options_t* options, const model_t* model, double* table_error)
 {
     if (options->table_error == NULL) {
-        *table_error = 1e-4 * (model_output_max(model) - model_output_min(model));
+        *table_error = tabulate_default_error(model);
         return OUTCOME_OK;
     }
     char* end;

@@ -1,5 +1,5 @@
+#include "effect_invert.h"
 #include "model_run.h"
-#include "reference.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,24 +12,26 @@ typedef struct {
     double max_error; ///< largest |output - wanted| of the samples that are not clamped
 } inverted_t;
 
-static inverted_t invert_all(const model_t* model, start_t start, const double* wanted, size_t num_samples)
+static inverted_t invert_all(const model_run_t* run)
 {
+    const size_t num_samples = run->record->num_samples;
+    const double* wanted = run->record->output;
     inverted_t result = {.input = xcalloc(num_samples, sizeof(double)),
                          .output = xcalloc(num_samples, sizeof(double)),
                          .clamped = xcalloc(num_samples, sizeof(double))};
-    reference_t reference = reference_start(model, start);
+    effect_run_t over = effect_run_new(run->model, run->record);
+    effect_invert(&over, run->model, run->start, run->uses, run->num_uses, wanted, result.input,
+                  result.clamped);
+    over.input = result.input;
+    effect_simulate(&over, run->model, run->start, run->uses, run->num_uses, result.output);
+    effect_run_free(&over);
     for (size_t i = 0; i < num_samples; ++i) {
-        const reference_inverse_t found = reference_inverse(&reference, wanted[i]);
-        result.input[i] = found.input;
-        result.output[i] = reference_step(&reference, found.input);
-        if (found.clamped) {
-            result.clamped[i] = 1.0;
+        if (result.clamped[i] > 0.0) {
             result.num_clamped += 1;
         } else {
             result.max_error = fmax(result.max_error, fabs(result.output[i] - wanted[i]));
         }
     }
-    reference_free(&reference);
     return result;
 }
 
@@ -41,26 +43,55 @@ static void inverted_free(inverted_t* inverted)
     *inverted = (inverted_t){0};
 }
 
-static outcome_t write_inverted(const char* path, const record_t* record, const inverted_t* inverted)
+/// With the auxiliary columns where the model's effects follow one, so that the result can be simulated.
+static outcome_t write_inverted(const model_run_t* run, const inverted_t* inverted)
 {
-    const record_column_t columns[] = {{"time", record->time, false},
-                                       {"input", inverted->input, false},
-                                       {"output", inverted->output, false},
-                                       {"clamped", inverted->clamped, true}};
-    const size_t first = record->time != NULL ? 0 : 1;
-    return record_write(path, columns + first, 4 - first, record->num_samples);
+    const record_t* record = run->record;
+    record_column_t* columns = xcalloc(record->num_auxiliary + 4, sizeof *columns);
+    size_t count = 0;
+    if (record->time != NULL) {
+        columns[count++] = (record_column_t){"time", record->time, false};
+    }
+    columns[count++] = (record_column_t){"input", inverted->input, false};
+    columns[count++] = (record_column_t){"output", inverted->output, false};
+    columns[count++] = (record_column_t){"clamped", inverted->clamped, true};
+    bool follows = false;
+    for (size_t u = 0; u < run->num_uses; ++u) {
+        follows = follows || run->uses[u].effect->needs_column;
+    }
+    for (size_t i = 0; follows && i < record->num_auxiliary; ++i) {
+        columns[count++] = (record_column_t){record->auxiliary[i].name, record->auxiliary[i].value, false};
+    }
+    const outcome_t outcome = record_write(run->output, columns, count, record->num_samples);
+    free(columns);
+    return outcome;
+}
+
+static void warn_clamped(const record_t* record, size_t num_clamped)
+{
+    if (num_clamped > 0) {
+        message_warning((location_t){.file = record->path},
+                        "%zu of %zu wanted outputs cannot be reached and are clamped", num_clamped,
+                        record->num_samples);
+    }
 }
 
 static outcome_t invert(const model_run_t* run)
 {
     const record_t* record = run->record;
-    inverted_t inverted = invert_all(run->model, run->start, record->output, record->num_samples);
-    if (inverted.num_clamped > 0) {
-        message_warning((location_t){.file = record->path},
-                        "%zu of %zu wanted outputs cannot be reached and are clamped", inverted.num_clamped,
-                        record->num_samples);
+    const outcome_t invertible = effect_check_inverse(run->model_path, run->uses, run->num_uses);
+    if (invertible != OUTCOME_OK) {
+        return invertible;
     }
-    const outcome_t outcome = write_inverted(run->output, record, &inverted);
+    inverted_t inverted = invert_all(run);
+    outcome_t outcome = model_run_check_finite(run, "input", inverted.input);
+    if (outcome == OUTCOME_OK) {
+        outcome = model_run_check_finite(run, "output", inverted.output);
+    }
+    if (outcome == OUTCOME_OK) {
+        warn_clamped(record, inverted.num_clamped);
+        outcome = write_inverted(run, &inverted);
+    }
     if (outcome == OUTCOME_OK && run->report) {
         printf(run->json ? "{\"samples\": %zu, \"clamped\": %zu, \"max_error\": %.9g}\n"
                          : "%zu samples, %zu clamped, largest round-trip error %.3g of those reached\n",
@@ -72,13 +103,16 @@ static outcome_t invert(const model_run_t* run)
 
 outcome_t cmd_invert(int argc, const char** argv)
 {
-    const command_t command = {"invert", "MODEL RECORD", 2,
-                               "Takes the record's output as wanted and writes time, the input within the "
-                               "model's range that gives it,\n"
-                               "the model's output there, and whether it was clamped to what can be reached "
-                               "(0 or 1). Starts at the\n"
-                               "input that the starting memory was left at: the least, the largest or the "
-                               "middle of the range, for the\n"
-                               "model's own states the middle of the inputs at which they are at rest."};
+    const command_t command = {
+        "invert", "MODEL RECORD", 2,
+        "Takes the record's output as wanted and writes time, the input within the "
+        "model's range that gives it,\n"
+        "the model's output there, and whether it was clamped to what can be reached "
+        "(0 or 1). Starts at the\n"
+        "input that the starting memory was left at: the least, the largest or the "
+        "middle of the range, for the\n"
+        "model's own states the middle of the inputs at which they are at rest. The model's effects are "
+        "inverted with\n"
+        "it; one that has no inverse (delay, slew_limit, quantization, widening) is refused."};
     return model_run(&command, (record_options_t){.needs_output = true}, invert, argc, argv);
 }

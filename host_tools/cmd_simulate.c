@@ -1,5 +1,4 @@
 #include "model_run.h"
-#include "reference.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,8 +74,13 @@ static outcome_t simulate(const model_run_t* run)
 {
     warn_outside(run->model, run->record);
     double* output = xcalloc(run->record->num_samples, sizeof(double));
-    reference_run(run->model, run->start, run->record->input, run->record->num_samples, output);
-    const outcome_t outcome = write_simulated(run->output, run->record, output);
+    effect_run_t over = effect_run_new(run->model, run->record);
+    effect_simulate(&over, run->model, run->start, run->uses, run->num_uses, output);
+    effect_run_free(&over);
+    outcome_t outcome = model_run_check_finite(run, "output", output);
+    if (outcome == OUTCOME_OK) {
+        outcome = write_simulated(run->output, run->record, output);
+    }
     if (outcome == OUTCOME_OK && run->report) {
         report(run, output);
     }
@@ -88,7 +92,8 @@ outcome_t cmd_simulate(int argc, const char** argv)
 {
     const command_t command = {"simulate", "MODEL RECORD", 2,
                                "Writes time, input, the model's output for that input, and the record's "
-                               "auxiliary columns. Where the\n"
+                               "auxiliary columns. The model's\n"
+                               "effects are run with it (without time, a second a sample). Where the\n"
                                "record has an output column, says how far the model's is from it. Beyond the "
                                "model's input range its\n"
                                "curves are continued, with a warning."};

@@ -1,34 +1,51 @@
 #include "effect.h"
-#include <stddef.h>
+#include "effect_catalogue.h"
 #include <string.h>
+
+/// In the contract's order, in which a run applies them within a stage.
+static const effect_t* const catalogue[] = {
+    &effect_gain_offset,
+    &effect_delay,
+    &effect_input_lag,
+    &effect_slew_limit,
+    &effect_rate_dependence_play_lag,
+    &effect_rate_dependence_widening,
+    &effect_creep_additional,
+    &effect_creep_delayed,
+    &effect_noncongruency_product,
+    &effect_noncongruency_moving,
+    &effect_noncongruency_increment,
+    &effect_wear_amplitude,
+    &effect_wear_increment,
+    &effect_initial_state,
+    &effect_output_lag,
+    &effect_resonance,
+    &effect_backlash,
+    &effect_output_saturation,
+    &effect_output_nonlinearity,
+    &effect_drift_linear,
+    &effect_drift_spline,
+    &effect_periodic_disturbance,
+    &effect_quantization,
+    &effect_exogenous,
+};
+
+size_t effect_count(void)
+{
+    return sizeof catalogue / sizeof catalogue[0];
+}
+
+const effect_t* effect_at(size_t index)
+{
+    return catalogue[index];
+}
 
 bool effect_is_known(const char* name)
 {
-    static const char* const catalogue[] = {
-        "gain_offset",
-        "delay",
-        "input_lag",
-        "slew_limit",
-        "rate_dependence",
-        "creep",
-        "noncongruency",
-        "wear",
-        "initial_state",
-        "output_lag",
-        "resonance",
-        "backlash",
-        "output_saturation",
-        "output_nonlinearity",
-        "drift",
-        "periodic_disturbance",
-        "quantization",
-        "exogenous",
-        "unknown",
-    };
-    for (size_t i = 0; i < sizeof catalogue / sizeof catalogue[0]; ++i) {
-        if (strcmp(catalogue[i], name) == 0) {
+    for (size_t i = 0; i < effect_count(); ++i) {
+        if (strcmp(catalogue[i]->name, name) == 0) {
             return true;
         }
     }
-    return false;
+    return strcmp(name, "unknown") == 0;
 }

@@ -1,9 +1,136 @@
-/// The catalogue of effects (CONTRACT, "Effects: the catalogue's names").
+/// The catalogue of effects (CONTRACT, "Effects: the catalogue's names"): what a plant can do beside its GPI
+/// model. One file each (effect_NAME.c) behind this interface; adding one is that file and one line in
+/// effect.c.
+///
+/// Order of a run: drive side (on the input) -> hysteresis -> body (on the hysteresis's output) -> sensor
+/// side. Every effect is causal and knows time in seconds: the same parameters mean the same at any sample
+/// rate, also an uneven one.
 #ifndef HYST_HOST_EFFECT_H
 #define HYST_HOST_EFFECT_H
 
+#include "fast_plays.h"
+#include "hysteresis.h"
+#include "message.h"
+#include "model.h"
+#include "record.h"
 #include <stdbool.h>
 
+typedef enum { EFFECT_DRIVE, EFFECT_HYSTERESIS, EFFECT_BODY, EFFECT_SENSOR } effect_stage_t;
+
+/// What an effect sees of the record it runs over.
+typedef struct {
+    size_t num_samples;
+    const double* time;            ///< [num_samples] seconds; a record without time: one second a sample
+    const double* input;           ///< [num_samples] the command, before any effect
+    const record_t* record;        ///< for auxiliary columns; may be NULL when no effect names one
+    double input_span;             ///< the model's input_max - input_min
+    double output_span;            ///< the range of the model's own output over this input
+    double sample_time;            ///< median of the time steps [s]
+    double duration;               ///< [s]
+    double output_min, output_max; ///< the model's output between its two saturations, whatever the input
+    double input_rate;             ///< the largest |d input/dt| between two samples
+    double travel;                 ///< the sum of |d input|
+    double largest_radius;         ///< of a play that the model's range can move, envelope units
+    const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
+} effect_run_t;
+
+enum { EFFECT_MAX_PARAMETERS = 10 };
+
+/// A parameter, as it stands in the model file and in reports.
+typedef struct {
+    const char* name;
+    const char* unit;   ///< "s", "Hz", "input", "output", "1", "input/s", ...
+    double least, most; ///< what is physical; beyond it a model file is refused
+    bool optional;      ///< 0 when a model file leaves it out
+} effect_parameter_t;
+
+/// Bounds and starts of a parameter on one record, for fitting.
+typedef struct {
+    double low, high;
+    double neutral;   ///< the value (or limit) at which the effect does nothing, within [low, high]
+    double start[3];  ///< where a search may begin, the likeliest first
+    bool logarithmic; ///< search its logarithm (low > 0)
+} effect_limits_t;
+
+typedef struct effect effect_t;
+struct effect {
+    const char* name;      ///< the catalogue's
+    const char* mechanism; ///< NULL, or which of several under one name ("lag", "envelope_shift"):
+                           ///< "mechanism" in JSON
+    effect_stage_t stage;
+    bool transferable; ///< false: what was fitted holds for this record alone (drift, initial_state)
+    bool needs_column; ///< exogenous: follows a named auxiliary column
+    size_t num_parameters;
+    const effect_parameter_t* parameter;
+    /// What is wrong with parameters that are each physical (tau_fast above tau_slow), or NULL. May be NULL.
+    const char* (*fault)(const double* parameter);
+    /// Puts parameters that a search left in another order into theirs, without a change of what they do. May
+    /// be NULL.
+    void (*normalise)(double* parameter);
+    void (*limits)(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
+    /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column, centred on its first
+    /// value [num_samples], or NULL.
+    void (*apply)(const effect_run_t* run, const double* parameter, const double* column, double* series);
+    /// hysteresis: sets its part of how the plays run (hysteresis.h); several compose. exogenous has both.
+    void (*configure)(const effect_run_t* run, const double* parameter, const double* column,
+                      hysteresis_t* hysteresis);
+    /// The inverse of apply, in place: the series that apply turns into this one. NULL: it has none.
+    void (*invert)(const effect_run_t* run, const double* parameter, const double* column, double* series);
+    bool clips;             ///< invert leaves what it cannot reach where apply does not give it back
+    const char* no_inverse; ///< why the effect has no inverse, as the end of a sentence; NULL: it has one
+};
+
+/// Every effect and mechanism, in the order in which a run applies them.
+size_t effect_count(void);
+const effect_t* effect_at(size_t index);
 bool effect_is_known(const char* name);
+
+/// An effect with its parameters, as a model's `effects` holds it.
+typedef struct {
+    const effect_t* effect;
+    double parameter[EFFECT_MAX_PARAMETERS];
+    char column[64]; ///< exogenous: the auxiliary column's name; else empty
+    bool has_reference;
+    double
+        reference; ///< exogenous: the column's value at which nothing changes; without it the record's first
+} effect_use_t;
+
+/// The run's description over a record (time, or 1 s a sample without it).
+effect_run_t effect_run_new(const model_t* model, const record_t* record);
+void effect_run_free(effect_run_t* run);
+
+/// The model with effects over the run's input, from `start`: output[num_samples]. uses in any order; applied
+/// in the catalogue's. A model's own `effects` are not read. It is the second of these after the first:
+void effect_simulate(const effect_run_t* run, const model_t* model, start_t start, const effect_use_t* uses,
+                     size_t num_uses, double* output);
+/// Drive side and hysteresis only, so that a search over the rest need not run the plays again.
+void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
+                                const effect_use_t* uses, size_t num_uses, double* output);
+/// Body and sensor side, in place.
+void effect_simulate_rest(const effect_run_t* run, const effect_use_t* uses, size_t num_uses, double* series);
+
+/// Whether the record has every column that the uses follow; else OUTCOME_BAD_INPUT with the columns there
+/// are.
+outcome_t effect_check_columns(const record_t* record, const effect_use_t* uses, size_t num_uses);
+/// One body, sensor or drive effect, or its inverse, over a series, with the column it follows.
+void effect_use_apply(const effect_run_t* run, const effect_use_t* use, double* series);
+void effect_use_invert(const effect_run_t* run, const effect_use_t* use, double* series);
+/// How the plays run with these uses; hysteresis_free when done.
+hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses, size_t num_uses);
+
+/// The limits of a use's parameter: its effect's, for exogenous in terms of the column's own size.
+effect_limits_t effect_use_limits(const effect_run_t* run, const effect_use_t* use, size_t parameter);
+
+/// The first thing wrong with a model's `effects` (NULL: nothing to check). "unknown" passes: it is a name
+/// without a run.
+model_fault_t effect_fault(const json_t* effects);
+/// uses[*num_uses] from a model's `effects`, allocated; OUTCOME_BAD_INPUT with a message (location: the model
+/// file's place where known) for an unknown type or mechanism, a missing, unknown or unphysical parameter.
+outcome_t effect_uses_of_model(const model_t* model, const char* model_path, effect_use_t** uses,
+                               size_t* num_uses);
+/// What a search found, as its effect's parameters are meant to be read.
+void effect_use_normalise(effect_use_t* use);
+/// An entry for a model's `effects`: {"type", "mechanism"?, "column"?, parameters...}.
+json_t* effect_use_to_json(const effect_use_t* use);
 
 #endif

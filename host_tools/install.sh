@@ -1,6 +1,6 @@
 #!/bin/sh
-# install.sh [tests] [target]: makes sure that what the build needs is on this machine. As root on Debian it installs
-# with apt-get; otherwise it names the packages and exits with 5. Says nothing when all is there.
+# install.sh [report] [tests] [target]: makes sure that what the build needs is on this machine. As root on Debian it
+# installs with apt-get; otherwise it names the packages and exits with 5. Says nothing when all is there.
 set -eu
 
 have_command() {
@@ -35,9 +35,14 @@ check_build() {
     have_header csv.h || need libcsv libcsv-dev libcsv-devel libcsv
 }
 
+check_report() {
+    have_command gnuplot || need gnuplot gnuplot-nox gnuplot gnuplot
+}
+
 check_tests() {
     have_command g++ || need "C++ compiler" g++ gcc-c++ gcc
     have_command clang || need clang clang clang llvm
+    check_report
     have_command clang-format || need clang-format clang-format clang-tools-extra clang-format
     have_command dpkg-source || need dpkg-source dpkg-dev dpkg-dev dpkg
 }

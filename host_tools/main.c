@@ -23,6 +23,7 @@ static const verb_t verbs[] = {
     {"emit", cmd_emit, "writes a model as a C header for firmware"},
     {"simulate", cmd_simulate, "runs a model over a record's input"},
     {"invert", cmd_invert, "finds the input that gives a wanted output"},
+    {"diagnose", cmd_diagnose, "finds the unmodelled effect behind a gap between model and record"},
 };
 enum { NUM_VERBS = sizeof verbs / sizeof verbs[0] };
 

@@ -1,3 +1,4 @@
+#include "effect.h"
 #include "model.h"
 #include <math.h>
 #include <stdarg.h>
@@ -205,6 +206,9 @@ model_fault_t model_check(const model_t* model)
     }
     if (found.key == NULL && model->initial != NULL) {
         found = check_initial(model);
+    }
+    if (found.key == NULL && model->effects != NULL) {
+        found = effect_fault(model->effects);
     }
     return found;
 }

@@ -1,6 +1,8 @@
 #include "model_run.h"
+#include "input_file.h"
 #include "model_file.h"
 #include "output_file.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +13,20 @@ typedef struct {
     double sample_rate;
     int json;
 } options_t;
+
+outcome_t model_run_check_finite(const model_run_t* run, const char* what, const double* values)
+{
+    for (size_t i = 0; i < run->record->num_samples; ++i) {
+        if (!isfinite(values[i])) {
+            return message_error(
+                OUTCOME_NUMERICAL, (location_t){.file = run->model_path},
+                "the %s is not finite at sample %zu: the model's effects are beyond what can be "
+                "computed over this record",
+                what, i + 1);
+        }
+    }
+    return OUTCOME_OK;
+}
 
 static outcome_t check_streams(const options_t* options, const char* const* arguments)
 {
@@ -27,21 +43,32 @@ static outcome_t check_streams(const options_t* options, const char* const* argu
 static outcome_t run_on(const options_t* options, const char* model_path, const model_t* model,
                         const record_t* record, model_run_work_t* work)
 {
-    start_t start;
-    outcome_t outcome = command_refuse_effects(model_path, model);
-    if (outcome == OUTCOME_OK) {
-        outcome = command_start(options->initial, model, &start);
-    }
+    effect_use_t* uses;
+    model_run_t run = {.model = model,
+                       .record = record,
+                       .model_path = input_name(model_path),
+                       .output = options->output,
+                       .report = !output_is_stdout(options->output),
+                       .json = options->json != 0};
+    outcome_t outcome = effect_uses_of_model(model, run.model_path, &uses, &run.num_uses);
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    const model_run_t run = {.model = model,
-                             .record = record,
-                             .start = start,
-                             .output = options->output,
-                             .report = !output_is_stdout(options->output),
-                             .json = options->json != 0};
-    return work(&run);
+    run.uses = uses;
+    if (run.num_uses > 0 && record->time == NULL) {
+        message_warning(
+            (location_t){.file = record->path},
+            "the record has no time: for the model's effects a sample is a second (--sample-rate)");
+    }
+    outcome = effect_check_columns(record, uses, run.num_uses);
+    if (outcome == OUTCOME_OK) {
+        outcome = command_start(options->initial, model, &run.start);
+    }
+    if (outcome == OUTCOME_OK) {
+        outcome = work(&run);
+    }
+    free(uses);
+    return outcome;
 }
 
 static outcome_t read_and_run(const options_t* options, const char* const* arguments, record_options_t needs,

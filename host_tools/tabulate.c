@@ -2,6 +2,7 @@
 #include "float_error.h"
 #include "float_lines.h"
 #include "grid.h"
+#include "output_range.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -125,6 +126,11 @@ const char* tabulate(const model_t* model, double table_error, tabulated_t* tabu
     }
     prepared_free(&prepared);
     return fault;
+}
+
+double tabulate_default_error(const model_t* model)
+{
+    return 1e-4 * (model_output_max(model) - model_output_min(model));
 }
 
 void tabulated_free(tabulated_t* tabulated)

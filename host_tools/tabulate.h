@@ -22,6 +22,8 @@ typedef struct {
 /// A model that `prepare` finds classical gets no table. Returns NULL, or why there is no such table;
 /// *tabulated is then empty. What lib/ thinks of the model is for hyst_f32_init to say.
 const char* tabulate(const model_t* model, double table_error, tabulated_t* tabulated);
+/// What `hyst emit` lets the tables change the output by unless told otherwise: 1e-4 of its range.
+double tabulate_default_error(const model_t* model);
 void tabulated_free(tabulated_t* tabulated);
 
 #endif

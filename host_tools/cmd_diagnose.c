@@ -1,0 +1,365 @@
+#include "command.h"
+#include "diagnose.h"
+#include "diagnose_chain.h"
+#include "diagnose_json.h"
+#include "diagnose_report.h"
+#include "diagnose_structure.h"
+#include "diagnose_text.h"
+#include "model_file.h"
+#include "output_file.h"
+#include "reference.h"
+#include "report_plot.h"
+#include <cblas.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    char* output;
+    char* calibration;
+    char* test;
+    char* next_input;
+    char* report;
+    char* chain_text; ///< what popt finds of a --chain that is not whole
+    chain_paths_t chain;
+    char* initial;
+    char* columns;
+    double sample_rate;
+    int json;
+} options_t;
+
+static void print_report(const diagnosis_t* d, const model_t* model)
+{
+    printf("gap: rmse %.6g %s, %.3g %% of the output's range; noise and known misfit account for %.6g\n",
+           d->rmse, model->output_unit, 100 * d->relative, d->noise_floor);
+    for (size_t i = 0; i < d->num_regions && i < 3 && d->closable > 0; i++) {
+        char text[200];
+        where_describe(&d->region[i], model->input_unit, model->output_unit, text, sizeof text);
+        printf("where: %s (%.1f times its part of the samples)\n", text, d->region[i].lift);
+    }
+    for (size_t k = 0; k < d->num_causes && k < 5; k++) {
+        const cause_t* cause = &d->cause[k];
+        char names[400];
+        text_names(cause->hypothesis, names, sizeof names);
+        printf("cause: %4.0f %%  %s, leaves %.6g, shrink %.0f %% (%.0f to %.0f %%)\n",
+               100 * cause->probability, names, cause->rmse_after, 100 * cause->shrink,
+               100 * cause->shrink_low, 100 * cause->shrink_high);
+    }
+    char verdict[400];
+    text_verdict(d, verdict, sizeof verdict);
+    printf("verdict: %s%s\n", verdict, d->confident ? "" : " (not confident)");
+    if (d->advice[0] != '\0') {
+        printf("advice: %s\n", d->advice);
+    }
+}
+
+/// The calibration record's misfit and noise: from the record when it is given, else from what identify
+/// wrote.
+static outcome_t calibrate(const options_t* given, const model_t* model, record_t* record,
+                           diagnose_options_t* options)
+{
+    if (given->calibration == NULL) {
+        const json_t* rmse =
+            model->identification != NULL ? json_object_get(model->identification, "rmse") : NULL;
+        options->calibration_rmse = json_is_number(rmse) ? json_number_value(rmse) : 0;
+        return OUTCOME_OK;
+    }
+    const record_options_t wanted = {.columns = given->columns,
+                                     .sample_rate = given->sample_rate,
+                                     .needs_input = true,
+                                     .needs_output = true};
+    const outcome_t outcome = record_read(given->calibration, &wanted, record);
+    if (outcome != OUTCOME_OK) {
+        return outcome;
+    }
+    options->calibration = record;
+    options->calibration_rmse = chain_misfit(model, options->start, record, &options->calibration_noise);
+    return OUTCOME_OK;
+}
+
+/// The model with the verdict's effects, for -o.
+static outcome_t write_augmented(const char* path, const model_t* model, const diagnosis_t* d)
+{
+    model_t augmented = model_copy(model);
+    if (!d->is_unknown && d->cause[0].hypothesis->num_uses > 0) {
+        json_decref(augmented.effects);
+        augmented.effects = parameters_to_json(d->cause[0].hypothesis);
+    }
+    const outcome_t outcome = model_write(path, &augmented);
+    model_free(&augmented);
+    return outcome;
+}
+
+/// The verdict on a record that the diagnosis has not seen.
+typedef struct {
+    bool given;
+    double before, after; ///< RMSE of the plain and of the augmented model
+} realised_t;
+
+static double rmse_on(const effect_run_t* run, const model_t* model, start_t start,
+                      const hypothesis_t* hypothesis, const double* output)
+{
+    double* predicted = xmalloc(run->num_samples * sizeof *predicted);
+    effect_simulate(run, model, start, hypothesis != NULL ? hypothesis->use : NULL,
+                    hypothesis != NULL ? hypothesis->num_uses : 0, predicted);
+    double sum = 0;
+    for (size_t t = 0; t < run->num_samples; t++) {
+        sum += (predicted[t] - output[t]) * (predicted[t] - output[t]);
+    }
+    free(predicted);
+    return sqrt(sum / (double)run->num_samples);
+}
+
+static outcome_t realise(const options_t* given, const model_t* model, start_t start, const diagnosis_t* d,
+                         realised_t* realised)
+{
+    if (given->test == NULL) {
+        return OUTCOME_OK;
+    }
+    record_t record = {0};
+    outcome_t outcome = record_read(given->test,
+                                    &(record_options_t){.columns = given->columns,
+                                                        .sample_rate = given->sample_rate,
+                                                        .needs_input = true,
+                                                        .needs_output = true},
+                                    &record);
+    const hypothesis_t* verdict = d->is_unknown ? NULL : d->cause[0].hypothesis;
+    if (outcome == OUTCOME_OK && verdict != NULL) {
+        outcome = effect_check_columns(&record, verdict->use, verdict->num_uses);
+    }
+    if (outcome == OUTCOME_OK) {
+        effect_run_t run = effect_run_new(model, &record);
+        *realised = (realised_t){true, rmse_on(&run, model, start, NULL, record.output),
+                                 rmse_on(&run, model, start, verdict, record.output)};
+        effect_run_free(&run);
+    }
+    record_free(&record);
+    return outcome;
+}
+
+static outcome_t write_next_input(const char* path, const diagnosis_t* d)
+{
+    if (d->next.num_samples == 0) {
+        message_note(NOWHERE, "--next-input: no further experiment is needed, nothing was written");
+        return OUTCOME_OK;
+    }
+    const record_column_t columns[] = {{"time", d->next.time, false}, {"input", d->next.input, false}};
+    return record_write(path, columns, 2, d->next.num_samples);
+}
+
+/// What a run found out.
+typedef struct {
+    diagnosis_t diagnosis;
+    realised_t realised;
+    bool has_budget;
+    budget_t budget;
+} findings_t;
+
+static json_t* findings_json(const findings_t* found)
+{
+    json_t* object = diagnosis_to_json(&found->diagnosis);
+    const realised_t* realised = &found->realised;
+    if (realised->given) {
+        json_object_set_new(object, "test",
+                            json_pack("{s:f, s:f, s:f}", "rmse", realised->before, "rmse_after",
+                                      realised->after, "shrink", 1 - realised->after / realised->before));
+    }
+    if (found->has_budget) {
+        json_object_set_new(object, "budget", budget_to_json(&found->budget));
+        json_object_set_new(
+            object, "budget_total",
+            json_pack("{s:f, s:f}", "rmse", found->budget.total, "cross_share", found->budget.cross_share));
+    }
+    return object;
+}
+
+static void print_budget(const budget_t* budget)
+{
+    printf("budget: the firmware's rmse is %.6g; of its square:\n", budget->total);
+    for (size_t i = 0; i < BUDGET_PARTS; i++) {
+        const budget_entry_t* entry = &budget->entry[i];
+        printf("budget: %8.3f %%  %-14s %.6g  %s\n", 100 * entry->share, budget_part_name(entry->part),
+               entry->rmse, budget_part_text(entry->part));
+    }
+    printf("budget: %8.3f %%  cross terms: what the parts add or cancel between them\n",
+           100 * budget->cross_share);
+}
+
+static void print_findings(const options_t* given, const model_t* model, const findings_t* found)
+{
+    if (given->json) {
+        json_t* object = findings_json(found);
+        json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
+        putchar('\n');
+        json_decref(object);
+        return;
+    }
+    if (given->report != NULL && output_is_stdout(given->report)) {
+        return;
+    }
+    print_report(&found->diagnosis, model);
+    if (found->realised.given) {
+        printf("test: rmse %.6g before, %.6g after, shrink %.0f %%\n", found->realised.before,
+               found->realised.after, 100 * (1 - found->realised.after / found->realised.before));
+    }
+    if (found->has_budget) {
+        print_budget(&found->budget);
+    }
+}
+
+static outcome_t write_files(const options_t* given, const model_t* model, const findings_t* found,
+                             const report_t* report)
+{
+    outcome_t outcome = OUTCOME_OK;
+    if (given->report != NULL) {
+        outcome = report_write(given->report, report);
+    }
+    if (outcome == OUTCOME_OK && given->output != NULL) {
+        outcome = write_augmented(given->output, model, &found->diagnosis);
+    }
+    if (outcome == OUTCOME_OK && given->next_input != NULL) {
+        outcome = write_next_input(given->next_input, &found->diagnosis);
+    }
+    return outcome;
+}
+
+/// The diagnosis, what else was asked for, and only then the files.
+static outcome_t find_and_report(const options_t* given, const char** paths, const model_t* model,
+                                 const record_t* record, const diagnose_options_t* options,
+                                 const chain_t* chain)
+{
+    findings_t found = {.has_budget = given->chain.full != NULL};
+    outcome_t outcome = diagnose(model, record, options, &found.diagnosis);
+    if (outcome == OUTCOME_OK) {
+        outcome = realise(given, model, options->start, &found.diagnosis, &found.realised);
+    }
+    if (outcome == OUTCOME_OK && found.has_budget) {
+        outcome = chain_budget(chain, record, options, &found.diagnosis, &found.budget);
+    }
+    if (outcome == OUTCOME_OK) {
+        effect_run_t run = effect_run_new(model, record);
+        const report_t report = {.model = model,
+                                 .model_path = paths[0],
+                                 .record_path = paths[1],
+                                 .run = &run,
+                                 .measured = record->output,
+                                 .diagnosis = &found.diagnosis,
+                                 .budget = found.has_budget ? &found.budget : NULL};
+        outcome = write_files(given, model, &found, &report);
+        effect_run_free(&run);
+    }
+    if (outcome == OUTCOME_OK) {
+        print_findings(given, model, &found);
+    }
+    diagnosis_free(&found.diagnosis);
+    return outcome;
+}
+
+static outcome_t run_on(const options_t* given, const model_t* model, const char** paths,
+                        const chain_t* chain)
+{
+    record_t record = {0};
+    const record_options_t wanted = {.columns = given->columns,
+                                     .sample_rate = given->sample_rate,
+                                     .needs_input = true,
+                                     .needs_output = true};
+    record_t calibration = {0};
+    diagnose_options_t options = {0};
+    outcome_t outcome = command_start(given->initial, model, &options.start);
+    if (outcome == OUTCOME_OK) {
+        outcome = calibrate(given, model, &calibration, &options);
+    }
+    if (outcome == OUTCOME_OK) {
+        outcome = record_read(paths[1], &wanted, &record);
+    }
+    if (outcome == OUTCOME_OK) {
+        outcome = find_and_report(given, paths, model, &record, &options, chain);
+    }
+    record_free(&calibration);
+    record_free(&record);
+    return outcome;
+}
+
+/// What can be refused before anything is read or fitted.
+static outcome_t check_options(const options_t* given)
+{
+    if (given->chain_text != NULL) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "--chain takes three words, %s", CHAIN_ARGUMENTS);
+    }
+    if (given->report == NULL) {
+        return OUTCOME_OK;
+    }
+    if (given->json && output_is_stdout(given->report)) {
+        return message_error(OUTCOME_USAGE, NOWHERE,
+                             "--json and --report both go to stdout, expected a file for the report");
+    }
+    return plot_check();
+}
+
+static outcome_t run(const options_t* given, const char** paths)
+{
+    openblas_set_num_threads(1);
+    model_t model = model_new("");
+    model_free(&model);
+    chain_t chain = {0};
+    outcome_t outcome = check_options(given);
+    if (outcome == OUTCOME_OK) {
+        outcome = model_read(paths[0], &model);
+    }
+    if (outcome == OUTCOME_OK && given->chain.full != NULL) {
+        outcome = chain_read(&given->chain, &chain);
+    }
+    if (outcome == OUTCOME_OK) {
+        outcome = run_on(given, &model, paths, &chain);
+    }
+    chain_free(&chain);
+    model_free(&model);
+    return outcome;
+}
+
+outcome_t cmd_diagnose(int argc, const char** argv)
+{
+    options_t given = {0};
+    const struct poptOption options[] = {
+        {"output", 'o', POPT_ARG_STRING, &given.output, 0, "the model with the diagnosed effects", "MODEL"},
+        {"calibration", 0, POPT_ARG_STRING, &given.calibration, 0, "the record the model was identified from",
+         "RECORD"},
+        {"test", 0, POPT_ARG_STRING, &given.test, 0,
+         "another record: the realised shrink beside the predicted one", "RECORD"},
+        {"next-input", 0, POPT_ARG_STRING, &given.next_input, 0,
+         "writes the experiment that the advice names", "RECORD"},
+        {"report", 0, POPT_ARG_STRING, &given.report, 0,
+         "the diagnosis with plots, as one file (needs gnuplot)", "FILE.html"},
+        {"chain", 0, POPT_ARG_STRING, &given.chain_text, 0,
+         "also the firmware's error budget on the record, from the full model to the header (f32)",
+         CHAIN_ARGUMENTS},
+        {"initial", 0, POPT_ARG_STRING, &given.initial, 0, "the memory at the start",
+         "negative-saturation|positive-saturation|demagnetised|model"},
+        RECORD_OPTIONS(&given.columns, &given.sample_rate),
+        {"json", 0, POPT_ARG_NONE, &given.json, 0, "the result as JSON on stdout", NULL},
+        POPT_TABLEEND};
+    const command_t command = {"diagnose", "MODEL RECORD", 2,
+                               "Tells where the gap between a model and a record lies, which unmodelled "
+                               "effect causes it, and how far it\n"
+                               "shrinks once the effect is modelled. Causes are judged on stretches of the "
+                               "record that their fit has not seen."};
+    const char* paths[2] = {NULL, NULL};
+    bool finished = false;
+    const char** rest = xcalloc((size_t)argc + 1, sizeof *rest);
+    const int num_rest = chain_take(argc, argv, rest, &given.chain);
+    outcome_t outcome = command_parse(&command, options, num_rest, rest, paths, &finished);
+    if (outcome == OUTCOME_OK && !finished) {
+        outcome = run(&given, paths);
+    }
+    free(rest);
+    free(given.report);
+    free(given.chain_text);
+    free(given.output);
+    free(given.calibration);
+    free(given.test);
+    free(given.next_input);
+    free(given.initial);
+    free(given.columns);
+    return outcome;
+}

@@ -1,0 +1,51 @@
+/// Diagnosis of the gap between a model and a record: where it lies, which effect causes it, how far it
+/// shrinks.
+#ifndef HYST_HOST_DIAGNOSE_H
+#define HYST_HOST_DIAGNOSE_H
+
+#include "diagnose_hypothesis.h"
+#include "diagnose_next.h"
+#include "diagnose_where.h"
+
+typedef struct {
+    start_t start;
+    double
+        calibration_rmse; ///< the model's misfit on the record it was identified from [output], 0: not known
+    double calibration_noise;    ///< that record's own noise [output], 0: not known
+    const record_t* calibration; ///< that record, for the auxiliary columns' values then, or NULL
+} diagnose_options_t;
+
+/// A candidate explanation as reported.
+typedef struct {
+    const hypothesis_t* hypothesis;
+    double probability;
+    double rmse_after; ///< on held-out stretches
+    double shrink, shrink_low, shrink_high;
+    double closeness; ///< RMS distance of its prediction from the verdict's [output]
+} cause_t;
+
+typedef struct {
+    double rmse, relative, noise, noise_floor, closable;
+    size_t num_regions;
+    region_t region[WHERE_MAX_REGIONS];
+    size_t num_causes;
+    cause_t* cause; ///< [num_causes] best first
+    size_t num_hypotheses;
+    hypothesis_t* hypothesis; ///< owns what the causes point to
+    bool is_unknown;          ///< the verdict is ["unknown"]
+    bool is_none;             ///< the verdict is []
+    bool confident;
+    double structure; ///< part of the remaining gap that a flexible predictor still finds, held out
+    size_t num_indistinguishable;
+    size_t indistinguishable[8]; ///< indices into cause
+    char advice[400];
+    next_input_t next; ///< the experiment that the advice names; no samples where there is none
+} diagnosis_t;
+
+/// record: time or none, input and output; path is for messages. OUTCOME_BAD_INPUT (reported) for a record
+/// that cannot be judged: too short, constant input or output, gaps in time.
+outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_options_t* options,
+                   diagnosis_t* diagnosis);
+void diagnosis_free(diagnosis_t* diagnosis);
+
+#endif

@@ -1,0 +1,209 @@
+#include "diagnose_budget.h"
+
+#include "hyst/hyst_f32.h"
+#include "input_file.h"
+#include "reference.h"
+#include "tabulate.h"
+#include <math.h>
+#include <stdlib.h>
+
+/// The chain's outputs on the record, each [num_samples]; neighbours differ by one step.
+enum { WITH_EFFECTS, FULL, COMPRESSED, CLAMPED, TABULATED, FIRMWARE, NUM_STAGES };
+
+static const struct {
+    const char* name;
+    const char* text;
+} parts[BUDGET_PARTS] = {
+    [BUDGET_UNMODELLED] = {"unmodelled", "effects that the model leaves out"},
+    [BUDGET_IDENTIFICATION] = {"identification", "the full model's misfit on its calibration record"},
+    [BUDGET_COMPRESSION] = {"compression", "fewer plays"},
+    [BUDGET_CLAMPING] = {"clamping", "inputs beyond the model's range"},
+    [BUDGET_TABLE] = {"table", "chords for curves"},
+    [BUDGET_ROUNDING] = {"rounding", "storing and computing in the header's scalar"},
+    [BUDGET_NOISE] = {"noise", "the sensor's noise"},
+    [BUDGET_UNEXPLAINED] = {"unexplained", "what none of the others accounts for"},
+};
+
+const char* budget_part_name(budget_part_t part)
+{
+    return parts[part].name;
+}
+
+const char* budget_part_text(budget_part_t part)
+{
+    return parts[part].text;
+}
+
+static double mean_square_difference(const double* a, const double* b, size_t n)
+{
+    double sum = 0;
+    for (size_t t = 0; t < n; t++) {
+        sum += (a[t] - b[t]) * (a[t] - b[t]);
+    }
+    return sum / (double)n;
+}
+
+static void tabulate_curve(curve_t* curve, const hyst_f32_model_t* stored)
+{
+    const size_t count = stored->num_knots;
+    double* x = xmalloc(count * sizeof *x);
+    double* y = xmalloc(count * sizeof *y);
+    for (size_t k = 0; k < count; k++) {
+        x[k] = (double)stored->knot[k].input;
+        y[k] = curve_value(curve, x[k]);
+    }
+    curve_free(curve);
+    *curve = curve_table(x, y, count);
+    free(x);
+    free(y);
+}
+
+/// The model with the stored table's chords for its curves, still in double precision; a classical model as
+/// it is.
+static model_t with_chords(const model_t* model, const hyst_f32_model_t* stored)
+{
+    model_t copy = model_copy(model);
+    if (stored->num_knots > 0) {
+        tabulate_curve(&copy.ascending, stored);
+        tabulate_curve(&copy.descending, stored);
+        tabulate_curve(&copy.nonhysteretic, stored);
+    }
+    return copy;
+}
+
+static hyst_start_t firmware_start(start_t start)
+{
+    switch (start) {
+    case START_POSITIVE_SATURATION:
+        return HYST_START_POSITIVE_SATURATION;
+    case START_DEMAGNETISED:
+        return HYST_START_DEMAGNETISED;
+    case START_NEGATIVE_SATURATION:
+    case START_MODEL:
+        break;
+    }
+    return HYST_START_NEGATIVE_SATURATION;
+}
+
+static outcome_t run_firmware(const budget_chain_t* chain, const hyst_f32_model_t* model,
+                              const effect_run_t* run, double* output)
+{
+    hyst_f32_segment_t* memory = xcalloc(model->num_plays, sizeof *memory);
+    hyst_f32_state_t state;
+    const hyst_status_t status = hyst_f32_init(model, &state, memory, model->num_plays);
+    if (status == HYST_STATUS_OK) {
+        output[0] = (double)hyst_f32_reset(model, &state, firmware_start(chain->start), (float)run->input[0]);
+        for (size_t t = 1; t < run->num_samples; t++) {
+            output[t] = (double)hyst_f32_step(model, &state, (float)run->input[t]);
+        }
+    }
+    free(memory);
+    return status == HYST_STATUS_OK
+               ? OUTCOME_OK
+               : message_error(OUTCOME_NUMERICAL, (location_t){.file = input_name(chain->compressed_path)},
+                               "the model has no valid form in float: %s", hyst_status_text(status));
+}
+
+static outcome_t run_header(const budget_chain_t* chain, const effect_run_t* run, const double* clamped_input,
+                            double* tabulated_output, double* firmware_output)
+{
+    const model_t* model = chain->compressed;
+    const double table_error = tabulate_default_error(model);
+    tabulated_t tabulated;
+    const char* fault = tabulate(model, table_error, &tabulated);
+    if (fault != NULL) {
+        return message_error(OUTCOME_NUMERICAL, (location_t){.file = input_name(chain->compressed_path)},
+                             "cannot be put into float with a table error of %.9g: %s", table_error, fault);
+    }
+    model_t chords = with_chords(model, &tabulated.model);
+    reference_run(&chords, chain->start, clamped_input, run->num_samples, tabulated_output);
+    model_free(&chords);
+    const outcome_t outcome = run_firmware(chain, &tabulated.model, run, firmware_output);
+    tabulated_free(&tabulated);
+    return outcome;
+}
+
+static outcome_t run_stages(const budget_chain_t* chain, const effect_run_t* run, double* stage[NUM_STAGES])
+{
+    const size_t n = run->num_samples;
+    const hypothesis_t* verdict = chain->verdict;
+    effect_simulate(run, chain->full, chain->start, verdict != NULL ? verdict->use : NULL,
+                    verdict != NULL ? verdict->num_uses : 0, stage[WITH_EFFECTS]);
+    reference_run(chain->full, chain->start, run->input, n, stage[FULL]);
+    reference_run(chain->compressed, chain->start, run->input, n, stage[COMPRESSED]);
+    double* clamped = xmalloc(n * sizeof *clamped);
+    for (size_t t = 0; t < n; t++) {
+        clamped[t] = fmin(fmax(run->input[t], chain->compressed->input_min), chain->compressed->input_max);
+    }
+    reference_run(chain->compressed, chain->start, clamped, n, stage[CLAMPED]);
+    const outcome_t outcome = run_header(chain, run, clamped, stage[TABULATED], stage[FIRMWARE]);
+    free(clamped);
+    return outcome;
+}
+
+static int by_share(const void* a, const void* b)
+{
+    const double x = ((const budget_entry_t*)a)->share;
+    const double y = ((const budget_entry_t*)b)->share;
+    return (x < y) - (x > y);
+}
+
+/// Mean squares by part from the stages; what the effects leave goes to the noise first, then to the misfit
+/// that the calibration showed.
+static void share_out(const budget_chain_t* chain, double* const* stage, const double* measured, size_t n,
+                      double* mean_square)
+{
+    const double noise = chain->noise * chain->noise;
+    const double left = mean_square_difference(stage[WITH_EFFECTS], measured, n);
+    mean_square[BUDGET_NOISE] = fmin(noise, left);
+    mean_square[BUDGET_IDENTIFICATION] =
+        fmin(fmax(chain->misfit * chain->misfit - noise, 0), left - mean_square[BUDGET_NOISE]);
+    mean_square[BUDGET_UNEXPLAINED] = left - mean_square[BUDGET_NOISE] - mean_square[BUDGET_IDENTIFICATION];
+    mean_square[BUDGET_UNMODELLED] = mean_square_difference(stage[FULL], stage[WITH_EFFECTS], n);
+    mean_square[BUDGET_COMPRESSION] = mean_square_difference(stage[COMPRESSED], stage[FULL], n);
+    mean_square[BUDGET_CLAMPING] = mean_square_difference(stage[CLAMPED], stage[COMPRESSED], n);
+    mean_square[BUDGET_TABLE] = mean_square_difference(stage[TABULATED], stage[CLAMPED], n);
+    mean_square[BUDGET_ROUNDING] = mean_square_difference(stage[FIRMWARE], stage[TABULATED], n);
+}
+
+static outcome_t add_up(const budget_chain_t* chain, double* const* stage, const double* measured, size_t n,
+                        budget_t* budget)
+{
+    double mean_square[BUDGET_PARTS];
+    share_out(chain, stage, measured, n, mean_square);
+    const double total = mean_square_difference(stage[FIRMWARE], measured, n);
+    double sum = total;
+    for (int part = 0; part < BUDGET_PARTS; part++) {
+        sum += mean_square[part];
+    }
+    if (!isfinite(sum) || !(total > 0)) {
+        return message_error(OUTCOME_NUMERICAL, NOWHERE,
+                             "the firmware's mean square error is %g, expected one above 0 to share out",
+                             total);
+    }
+    *budget = (budget_t){.total = sqrt(total), .cross_share = 1};
+    for (int part = 0; part < BUDGET_PARTS; part++) {
+        const double share = mean_square[part] / total;
+        budget->entry[part] = (budget_entry_t){(budget_part_t)part, sqrt(mean_square[part]), share};
+        budget->cross_share -= share;
+    }
+    qsort(budget->entry, BUDGET_PARTS, sizeof budget->entry[0], by_share);
+    return OUTCOME_OK;
+}
+
+outcome_t budget_find(const budget_chain_t* chain, const effect_run_t* run, const double* measured,
+                      budget_t* budget)
+{
+    const size_t n = run->num_samples;
+    double* storage = xmalloc(NUM_STAGES * n * sizeof *storage);
+    double* stage[NUM_STAGES];
+    for (size_t i = 0; i < NUM_STAGES; i++) {
+        stage[i] = storage + i * n;
+    }
+    outcome_t outcome = run_stages(chain, run, stage);
+    if (outcome == OUTCOME_OK) {
+        outcome = add_up(chain, stage, measured, n, budget);
+    }
+    free(storage);
+    return outcome;
+}

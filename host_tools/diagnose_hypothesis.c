@@ -1,0 +1,266 @@
+#include "diagnose_hypothesis.h"
+
+#include <cminpack.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_THETA = HYPOTHESIS_MAX_EFFECTS * EFFECT_MAX_PARAMETERS };
+
+gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output)
+{
+    gap_t gap = {.model = model, .run = run, .start = start, .output = output};
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        gap.block_end[b] = run->num_samples * (b + 1) / HYPOTHESIS_BLOCKS;
+    }
+    return gap;
+}
+
+size_t gap_block_of(const gap_t* gap, size_t sample)
+{
+    size_t block = 0;
+    while (sample >= gap->block_end[block]) {
+        block++;
+    }
+    return block;
+}
+
+hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses)
+{
+    hypothesis_t hypothesis = {.num_uses = num_uses, .fit_rmse = HUGE_VAL, .held_out_rmse = HUGE_VAL};
+    for (size_t i = 0; i < num_uses; i++) {
+        hypothesis.use[i] = uses[i];
+    }
+    return hypothesis;
+}
+
+void hypothesis_free(hypothesis_t* hypothesis)
+{
+    free(hypothesis->predicted);
+    hypothesis->predicted = NULL;
+}
+
+static bool names_use(const hypothesis_t* hypothesis, const effect_use_t* use)
+{
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        if (strcmp(hypothesis->use[i].effect->name, use->effect->name) == 0 &&
+            strcmp(hypothesis->use[i].column, use->column) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b)
+{
+    bool same = a->num_uses == b->num_uses;
+    for (size_t i = 0; same && i < a->num_uses; i++) {
+        same = names_use(b, &a->use[i]);
+    }
+    return same;
+}
+
+void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
+{
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_t* use = &hypothesis->use[i];
+        for (size_t p = 0; p < use->effect->num_parameters; p++) {
+            const effect_limits_t limits = effect_use_limits(gap->run, use, p);
+            use->parameter[p] = start < 0 ? limits.neutral : limits.start[start];
+        }
+    }
+}
+
+/// One free number of the search: a parameter within its bounds.
+typedef struct {
+    double* value;
+    effect_limits_t limits;
+} free_t;
+
+typedef struct {
+    const gap_t* gap;
+    hypothesis_t* hypothesis;
+    size_t num_free;
+    free_t free[MAX_THETA];
+    int held_out;
+    bool rest_only;    ///< no effect before the body: the plays need to run only once
+    double* plays;     ///< [num_samples] output of drive side and hysteresis, when rest_only
+    double* simulated; ///< [num_samples]
+} search_t;
+
+/// A bounded parameter as an unbounded number: its place between the bounds, over a sine, so that a bound can
+/// be reached.
+static double to_theta(const free_t* f)
+{
+    const bool logarithmic = f->limits.logarithmic;
+    const double low = logarithmic ? log(f->limits.low) : f->limits.low;
+    const double high = logarithmic ? log(f->limits.high) : f->limits.high;
+    const double value = logarithmic ? log(fmax(*f->value, f->limits.low)) : *f->value;
+    return asin(fmin(fmax(2 * (value - low) / (high - low) - 1, -0.999), 0.999));
+}
+
+static void from_theta(const free_t* f, double theta)
+{
+    const bool logarithmic = f->limits.logarithmic;
+    const double low = logarithmic ? log(f->limits.low) : f->limits.low;
+    const double high = logarithmic ? log(f->limits.high) : f->limits.high;
+    const double value = low + (high - low) * 0.5 * (1 + sin(theta));
+    *f->value = logarithmic ? exp(value) : value;
+}
+
+static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_out)
+{
+    search_t s = {.gap = gap, .hypothesis = hypothesis, .held_out = held_out, .rest_only = true};
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_t* use = &hypothesis->use[i];
+        s.rest_only = s.rest_only && use->effect->stage != EFFECT_DRIVE && use->effect->configure == NULL;
+        for (size_t p = 0; p < use->effect->num_parameters; p++) {
+            free_t* f = &s.free[s.num_free++];
+            f->value = &use->parameter[p];
+            f->limits = effect_use_limits(gap->run, use, p);
+        }
+    }
+    s.simulated = xmalloc(gap->run->num_samples * sizeof *s.simulated);
+    s.plays = xmalloc(gap->run->num_samples * sizeof *s.plays);
+    effect_simulate_hysteresis(gap->run, gap->model, gap->start, NULL, 0, s.plays);
+    return s;
+}
+
+static void search_free(search_t* s)
+{
+    free(s->simulated);
+    free(s->plays);
+}
+
+static void simulate(search_t* s)
+{
+    const hypothesis_t* h = s->hypothesis;
+    if (s->rest_only) {
+        memcpy(s->simulated, s->plays, s->gap->run->num_samples * sizeof *s->plays);
+        effect_simulate_rest(s->gap->run, h->use, h->num_uses, s->simulated);
+    } else {
+        effect_simulate(s->gap->run, s->gap->model, s->gap->start, h->use, h->num_uses, s->simulated);
+    }
+}
+
+static bool is_held_out(const search_t* s, size_t block)
+{
+    return s->held_out >= 0 && block % HYPOTHESIS_FOLDS == (size_t)s->held_out;
+}
+
+/// Errors at the samples of the blocks that are fitted, 0 at the others.
+static void residual_of(search_t* s, double* residual)
+{
+    simulate(s);
+    size_t t = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        const bool skip = is_held_out(s, b);
+        for (; t < s->gap->block_end[b]; t++) {
+            residual[t] = skip ? 0 : s->simulated[t] - s->gap->output[t];
+        }
+    }
+}
+
+static int minpack_residual(void* context, int m, int n, const double* theta, double* residual, int task)
+{
+    (void)m;
+    (void)task;
+    search_t* s = context;
+    for (int i = 0; i < n; i++) {
+        from_theta(&s->free[i], theta[i]);
+    }
+    residual_of(s, residual);
+    return 0;
+}
+
+static size_t count_fitted(const search_t* s)
+{
+    size_t count = 0;
+    size_t begin = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        count += is_held_out(s, b) ? 0 : s->gap->block_end[b] - begin;
+        begin = s->gap->block_end[b];
+    }
+    return count;
+}
+
+void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations)
+{
+    search_t s = search_new(hypothesis, gap, held_out);
+    const size_t m = gap->run->num_samples;
+    const size_t n = s.num_free;
+    double* work = xcalloc(2 * m + m * (n + 1) + 6 * (n + 1), sizeof *work);
+    double* residual = work;
+    if (n > 0 && m > n) {
+        double theta[MAX_THETA];
+        int pivot[MAX_THETA];
+        int evaluations = 0;
+        for (size_t i = 0; i < n; i++) {
+            theta[i] = to_theta(&s.free[i]);
+        }
+        double* vectors = residual + m;
+        double* jacobian = vectors + m;
+        double* v = jacobian + m * n;
+        // A wide difference step: delays, clips and steps are not smooth at the scale of rounding.
+        lmdif(minpack_residual, &s, (int)m, (int)n, theta, residual, 1e-6, 1e-6, 0, max_evaluations, 1e-6, v,
+              1, 1, 0, &evaluations, jacobian, (int)m, pivot, v + n, v + 2 * n, v + 3 * n, v + 4 * n,
+              vectors);
+        for (size_t i = 0; i < n; i++) {
+            from_theta(&s.free[i], theta[i]);
+        }
+    }
+    residual_of(&s, residual);
+    double sum = 0;
+    for (size_t t = 0; t < m; t++) {
+        sum += residual[t] * residual[t];
+    }
+    hypothesis->fit_rmse = sqrt(sum / (double)count_fitted(&s));
+    free(work);
+    search_free(&s);
+}
+
+void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations)
+{
+    hypothesis_t best = *hypothesis;
+    best.fit_rmse = HUGE_VAL;
+    for (int start = guessed ? -1 : 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
+        hypothesis_t trial = *hypothesis;
+        if (start >= 0) {
+            hypothesis_set_start(&trial, gap, start);
+        }
+        hypothesis_fit(&trial, gap, -1, max_evaluations);
+        if (trial.fit_rmse < best.fit_rmse) {
+            best = trial;
+        }
+    }
+    *hypothesis = best;
+    if (hypothesis->predicted == NULL) {
+        hypothesis->predicted = xmalloc(gap->run->num_samples * sizeof *hypothesis->predicted);
+    }
+    effect_simulate(gap->run, gap->model, gap->start, hypothesis->use, hypothesis->num_uses,
+                    hypothesis->predicted);
+}
+
+void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
+{
+    double sum = 0;
+    for (int fold = 0; fold < HYPOTHESIS_FOLDS; fold++) {
+        hypothesis_t trial = *hypothesis;
+        hypothesis_fit(&trial, gap, fold, 30);
+        search_t s = search_new(&trial, gap, -1);
+        simulate(&s);
+        size_t t = 0;
+        for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+            double error = 0;
+            for (; t < gap->block_end[b]; t++) {
+                error += (s.simulated[t] - gap->output[t]) * (s.simulated[t] - gap->output[t]);
+            }
+            if (b % HYPOTHESIS_FOLDS == (size_t)fold) {
+                hypothesis->block_error[b] = error;
+                sum += error;
+            }
+        }
+        search_free(&s);
+    }
+    hypothesis->held_out_rmse = sqrt(sum / (double)gap->run->num_samples);
+}

@@ -1,0 +1,47 @@
+/// A hypothesis: the model with none, one or several effects, fitted to a record and judged on held-out
+/// stretches.
+#ifndef HYST_HOST_DIAGNOSE_HYPOTHESIS_H
+#define HYST_HOST_DIAGNOSE_HYPOTHESIS_H
+
+#include "effect.h"
+#include "message.h"
+
+enum { HYPOTHESIS_MAX_EFFECTS = 3, HYPOTHESIS_BLOCKS = 24, HYPOTHESIS_FOLDS = 4 };
+
+/// The gap and everything a fit needs of the record.
+typedef struct {
+    const model_t* model;
+    const effect_run_t* run;
+    start_t start;
+    const double* output; ///< [run->num_samples] measured
+    size_t
+        block_end[HYPOTHESIS_BLOCKS]; ///< contiguous stretches; block b belongs to fold b % HYPOTHESIS_FOLDS
+} gap_t;
+
+gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output);
+size_t gap_block_of(const gap_t* gap, size_t sample);
+
+typedef struct {
+    size_t num_uses; ///< 0: the plain model
+    effect_use_t use[HYPOTHESIS_MAX_EFFECTS];
+    double fit_rmse;      ///< fitted to the whole record
+    double held_out_rmse; ///< each fold predicted by a fit to the others, the memory carried over
+    double block_error[HYPOTHESIS_BLOCKS]; ///< held-out sum of squares of each block
+    double* predicted; ///< [num_samples] by the fit to the whole record, or NULL before it
+} hypothesis_t;
+
+hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses);
+void hypothesis_free(hypothesis_t* hypothesis);
+/// Whether both name the same effects (mechanisms aside).
+bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b);
+
+/// The effects' parameters at their start values (start 0 ... 2); neutral when start is -1.
+void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start);
+/// Fits from the present parameters to all blocks but those of `held_out` (-1: to all); sets fit_rmse.
+void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
+/// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
+void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
+/// Held-out errors, from the present parameters.
+void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap);
+
+#endif

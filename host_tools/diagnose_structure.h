@@ -1,0 +1,24 @@
+/// What a flexible predictor still finds in a residual: the test for causes that no named effect covers.
+#ifndef HYST_HOST_DIAGNOSE_STRUCTURE_H
+#define HYST_HOST_DIAGNOSE_STRUCTURE_H
+
+#include "diagnose_hypothesis.h"
+
+/// The part of residual[num_samples]'s energy, 0 ... 1, that a ridge regression on lagged inputs and outputs,
+/// rates, plays' states, powers and time predicts on stretches it has not seen. 0: nothing.
+double structure_found(const gap_t* gap, const double* predicted, const double* residual);
+/// Standard deviation of the white part of a signal that is otherwise smooth, from the median of its second
+/// differences.
+double white_noise(const double* signal, size_t num_samples);
+/// sine * sin(2 pi frequency t) + cosine * cos(2 pi frequency t), t the given times.
+typedef struct {
+    double frequency, sine, cosine;
+} sinusoid_t;
+/// The strongest line of a series' least-squares spectrum, between two periods a record and a quarter of the
+/// sample rate.
+sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t num_samples);
+/// The step of the grid that all values lie on, or 0 when they lie on none coarser than a thousandth of their
+/// range.
+double grid_step(const double* values, size_t num_samples);
+
+#endif

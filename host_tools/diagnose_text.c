@@ -1,0 +1,48 @@
+#include "diagnose_text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void text_names(const hypothesis_t* hypothesis, char* text, size_t size)
+{
+    (void)snprintf(text, size, "%s", hypothesis->num_uses == 0 ? "nothing beside noise" : "");
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        const effect_use_t* use = &hypothesis->use[i];
+        const size_t length = strlen(text);
+        (void)snprintf(text + length, size - length, "%s%s%s%s", i > 0 ? " + " : "", use->effect->name,
+                       use->column[0] != '\0' ? ":" : "", use->column);
+    }
+}
+
+void text_verdict(const diagnosis_t* diagnosis, char* text, size_t size)
+{
+    if (diagnosis->is_unknown) {
+        (void)snprintf(text, size, "unknown: no named effect explains it");
+    } else {
+        text_names(diagnosis->cause[0].hypothesis, text, size);
+    }
+}
+
+void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* text, size_t size)
+{
+    char gap[200];
+    (void)snprintf(
+        gap, sizeof gap, "The model's error on this record is %.4g%s%s RMS, %.3g %% of the output's range",
+        diagnosis->rmse, output_unit[0] != '\0' ? " " : "", output_unit, 100 * diagnosis->relative);
+    const cause_t* cause = &diagnosis->cause[0];
+    if (diagnosis->is_unknown) {
+        (void)snprintf(text, size, "%s. It has structure that no effect of the catalogue explains.", gap);
+    } else if (cause->hypothesis->num_uses == 0) {
+        (void)snprintf(text, size,
+                       "%s. It is no more than the noise and the misfit that the model is known to have.",
+                       gap);
+    } else {
+        char names[400];
+        text_names(cause->hypothesis, names, sizeof names);
+        (void)snprintf(text, size,
+                       "%s, and the likeliest cause is %s (probability %.0f %%%s). Modelling it is predicted "
+                       "to shrink the error by %.0f %% (90 %% interval %.0f to %.0f %%).",
+                       gap, names, 100 * cause->probability, diagnosis->confident ? "" : ", not confident",
+                       100 * cause->shrink, 100 * cause->shrink_low, 100 * cause->shrink_high);
+    }
+}

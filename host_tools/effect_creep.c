@@ -1,0 +1,165 @@
+/// creep: slow motion that goes on after a change, over decades of time (domains in piezo ceramics,
+/// polymers).
+///     additional:  y' = y + amount * mean_k LP_k(y - y(0)): the late motion comes on top
+///     delayed:     y' = (1 - amount) y + amount * mean_k LP_k(y): a part of each change comes late
+/// LP_k: six first-order lags, time constants evenly in the logarithm from tau_fast to tau_slow, at rest
+/// before the record; a step is then followed by a motion nearly linear in log(time). Exact for a course that
+/// is linear between the samples. amount 0 ... 10 [1] (delayed: below 1), 0 < tau_fast <= tau_slow [s].
+/// Inverse: exact, sample by sample. Source: K. Kuhnen, P. Krejci, IEEE Trans. Autom. Control 54 (2009) 537:
+/// creep operators with eigenvalues in geometric sequence.
+#include "effect_catalogue.h"
+#include "effect_lag.h"
+#include "effect_limits.h"
+#include <math.h>
+
+enum { AMOUNT, TAU_FAST, TAU_SLOW, LAGS = 6 };
+
+static const effect_parameter_t additional_parameters[] = {
+    [AMOUNT] = {"amount", "1", .least = 0.0, .most = 10.0},
+    [TAU_FAST] = {"tau_fast", "s", .least = DBL_MIN, .most = DBL_MAX},
+    [TAU_SLOW] = {"tau_slow", "s", .least = DBL_MIN, .most = DBL_MAX},
+};
+
+static const effect_parameter_t delayed_parameters[] = {
+    [AMOUNT] = {"amount", "1", .least = 0.0, .most = 0.99},
+    [TAU_FAST] = {"tau_fast", "s", .least = DBL_MIN, .most = DBL_MAX},
+    [TAU_SLOW] = {"tau_slow", "s", .least = DBL_MIN, .most = DBL_MAX},
+};
+
+static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    const double sample = run->sample_time;
+    const double duration = run->duration;
+    switch (parameter) {
+    case AMOUNT:
+        *result = limits_linear(0.0, 0.9, 0.0, 0.1, 0.3, 0.03);
+        break;
+    case TAU_FAST:
+        *result = limits_logarithmic(0.5 * sample, fmax(0.3 * duration, sample), 3.0 * sample,
+                                     0.01 * duration, 3.0 * sample, 0.05 * duration);
+        break;
+    default:
+        *result = limits_logarithmic(sample, fmax(3.0 * duration, 2.0 * sample), 0.3 * duration,
+                                     0.3 * duration, duration, 0.1 * duration);
+        break;
+    }
+}
+
+static const char* fault(const double* parameter)
+{
+    return parameter[TAU_FAST] <= parameter[TAU_SLOW] ? NULL : "creep: \"tau_fast\" is above \"tau_slow\"";
+}
+
+/// The lags are the same set either way round.
+static void normalise(double* parameter)
+{
+    const double fast = fmin(parameter[TAU_FAST], parameter[TAU_SLOW]);
+    parameter[TAU_SLOW] = fmax(parameter[TAU_FAST], parameter[TAU_SLOW]);
+    parameter[TAU_FAST] = fast;
+}
+
+/// A run through the lags, values counted from the series' first.
+typedef struct {
+    double tau[LAGS];
+    double state[LAGS];
+    double direct; ///< the part that comes at once
+    double amount;
+    double input; ///< the last sample's
+} creep_t;
+
+static creep_t creep_new(const double* parameter, double direct)
+{
+    creep_t creep = {.direct = direct, .amount = parameter[AMOUNT]};
+    const double ratio = parameter[TAU_SLOW] / parameter[TAU_FAST];
+    for (size_t k = 0; k < LAGS; ++k) {
+        creep.tau[k] = parameter[TAU_FAST] * pow(ratio, (double)k / (LAGS - 1));
+    }
+    return creep;
+}
+
+/// One step either way: the output for `given` as input or, inverse, the input for `given` as output. The
+/// output is still + gain * input with what the lags bring along in `still`.
+static double creep_step(creep_t* creep, double step, double given, bool inverse)
+{
+    lag_step_t lag[LAGS];
+    double still = 0.0;
+    double gain = creep->direct;
+    const double share = creep->amount / LAGS;
+    for (size_t k = 0; k < LAGS; ++k) {
+        lag[k] = lag_step(step, creep->tau[k]);
+        still += share * lag_next(lag[k], creep->state[k], creep->input, 0.0);
+        gain += share * lag[k].ramp;
+    }
+    const double input = inverse ? (given - still) / gain : given;
+    for (size_t k = 0; k < LAGS; ++k) {
+        creep->state[k] = lag_next(lag[k], creep->state[k], creep->input, input);
+    }
+    creep->input = input;
+    return inverse ? input : still + gain * input;
+}
+
+static void run_creep(const effect_run_t* run, const double* parameter, double direct, bool inverse,
+                      double* series)
+{
+    creep_t creep = creep_new(parameter, direct);
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double step = run->time[i] - run->time[i - 1];
+        series[i] = series[0] + creep_step(&creep, step, series[i] - series[0], inverse);
+    }
+}
+
+static void apply_additional(const effect_run_t* run, const double* parameter, const double* column,
+                             double* series)
+{
+    (void)column;
+    run_creep(run, parameter, 1.0, false, series);
+}
+
+static void invert_additional(const effect_run_t* run, const double* parameter, const double* column,
+                              double* series)
+{
+    (void)column;
+    run_creep(run, parameter, 1.0, true, series);
+}
+
+static void apply_delayed(const effect_run_t* run, const double* parameter, const double* column,
+                          double* series)
+{
+    (void)column;
+    run_creep(run, parameter, 1.0 - parameter[AMOUNT], false, series);
+}
+
+static void invert_delayed(const effect_run_t* run, const double* parameter, const double* column,
+                           double* series)
+{
+    (void)column;
+    run_creep(run, parameter, 1.0 - parameter[AMOUNT], true, series);
+}
+
+const effect_t effect_creep_additional = {
+    .name = "creep",
+    .mechanism = "additional",
+    .stage = EFFECT_BODY,
+    .transferable = true,
+    .num_parameters = COUNT_OF(additional_parameters),
+    .parameter = additional_parameters,
+    .fault = fault,
+    .normalise = normalise,
+    .limits = limits,
+    .apply = apply_additional,
+    .invert = invert_additional,
+};
+
+const effect_t effect_creep_delayed = {
+    .name = "creep",
+    .mechanism = "delayed",
+    .stage = EFFECT_BODY,
+    .transferable = true,
+    .num_parameters = COUNT_OF(delayed_parameters),
+    .parameter = delayed_parameters,
+    .fault = fault,
+    .normalise = normalise,
+    .limits = limits,
+    .apply = apply_delayed,
+    .invert = invert_delayed,
+};

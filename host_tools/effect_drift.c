@@ -1,0 +1,130 @@
+/// drift: slow additive change over time, unrelated to the input (a sensor warming up, a creeping mount).
+///     linear:  y' = y + slope (t - t0)
+///     spline:  y' = y + s(t), s the natural cubic spline through 0 at the record's start and node_k at k/6
+///     of its
+///              duration
+/// slope [output/s], node_k [output]. Holds for this record alone. Zero at the record's start: a constant is
+/// an offset. Spline: C. de Boor, A Practical Guide to Splines, ch. IV.
+#include "effect_catalogue.h"
+#include "effect_limits.h"
+
+enum { NODES = 6 };
+
+static const effect_parameter_t slope_parameter[] = {{"slope", "output/s", ANY_NUMBER}};
+
+static const effect_parameter_t node_parameters[NODES] = {
+    {"node_1", "output", ANY_NUMBER}, {"node_2", "output", ANY_NUMBER}, {"node_3", "output", ANY_NUMBER},
+    {"node_4", "output", ANY_NUMBER}, {"node_5", "output", ANY_NUMBER}, {"node_6", "output", ANY_NUMBER},
+};
+
+static void slope_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)parameter;
+    const double slope = limits_output_span(run) / run->duration;
+    *result = limits_linear(-2.0 * slope, 2.0 * slope, 0.0, 0.0, 0.1 * slope, -0.1 * slope);
+}
+
+static void node_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)parameter;
+    const double span = limits_output_span(run);
+    *result = limits_linear(-2.0 * span, 2.0 * span, 0.0, 0.0, 0.1 * span, -0.1 * span);
+}
+
+static void add_slope(const effect_run_t* run, double slope, double* series)
+{
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        series[i] += slope * (run->time[i] - run->time[0]);
+    }
+}
+
+static void apply_slope(const effect_run_t* run, const double* parameter, const double* column,
+                        double* series)
+{
+    (void)column;
+    add_slope(run, parameter[0], series);
+}
+
+static void invert_slope(const effect_run_t* run, const double* parameter, const double* column,
+                         double* series)
+{
+    (void)column;
+    add_slope(run, -parameter[0], series);
+}
+
+/// The second derivatives at knots 0 ... NODES one apart, 0 at both ends: m[k-1] + 4 m[k] + m[k+1] = 6
+/// (second difference), by elimination.
+static void curvatures(const double* value, double* m)
+{
+    double pivot[NODES + 1] = {0};
+    for (size_t k = 0; k <= NODES; ++k) {
+        m[k] = 0.0;
+    }
+    for (size_t k = 1; k < NODES; ++k) {
+        const double before = k > 1 ? 1.0 / pivot[k - 1] : 0.0;
+        pivot[k] = 4.0 - before;
+        m[k] = 6.0 * (value[k - 1] - 2.0 * value[k] + value[k + 1]) - before * m[k - 1];
+    }
+    for (size_t k = NODES - 1; k >= 1; --k) {
+        m[k] = (m[k] - m[k + 1]) / pivot[k];
+    }
+}
+
+static void add_spline(const effect_run_t* run, const double* node, double sign, double* series)
+{
+    double value[NODES + 1] = {0};
+    for (size_t k = 0; k < NODES; ++k) {
+        value[k + 1] = sign * node[k];
+    }
+    double m[NODES + 1];
+    curvatures(value, m);
+    const double spacing = (run->time[run->num_samples - 1] - run->time[0]) / NODES;
+    size_t cell = 0;
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double place = (run->time[i] - run->time[0]) / spacing;
+        while (cell + 1 < NODES && place > (double)(cell + 1)) {
+            cell += 1;
+        }
+        const double right = place - (double)cell;
+        const double left = 1.0 - right;
+        series[i] +=
+            left * value[cell] + right * value[cell + 1] +
+            ((left * left * left - left) * m[cell] + (right * right * right - right) * m[cell + 1]) / 6.0;
+    }
+}
+
+static void apply_spline(const effect_run_t* run, const double* parameter, const double* column,
+                         double* series)
+{
+    (void)column;
+    add_spline(run, parameter, 1.0, series);
+}
+
+static void invert_spline(const effect_run_t* run, const double* parameter, const double* column,
+                          double* series)
+{
+    (void)column;
+    add_spline(run, parameter, -1.0, series);
+}
+
+const effect_t effect_drift_linear = {
+    .name = "drift",
+    .mechanism = "linear",
+    .stage = EFFECT_SENSOR,
+    .num_parameters = COUNT_OF(slope_parameter),
+    .parameter = slope_parameter,
+    .limits = slope_limits,
+    .apply = apply_slope,
+    .invert = invert_slope,
+};
+
+const effect_t effect_drift_spline = {
+    .name = "drift",
+    .mechanism = "spline",
+    .stage = EFFECT_SENSOR,
+    .num_parameters = NODES,
+    .parameter = node_parameters,
+    .limits = node_limits,
+    .apply = apply_spline,
+    .invert = invert_spline,
+};

@@ -1,0 +1,70 @@
+/// exogenous: gain, offset or width follow a measured auxiliary column c (temperature, load, supply
+/// pressure), counted from the value named "reference" or, without it, from the record's first.
+///     radii r_j + width c;  y' = y (1 + gain c) + offset c
+/// gain [1 per column unit], offset [output per column unit], width [envelope units per column unit]; those
+/// left out are 0. Inverse: where 1 + gain c <= 0 nothing can be reached.
+#include "effect_catalogue.h"
+#include "effect_limits.h"
+#include <math.h>
+
+enum { GAIN, OFFSET, WIDTH };
+
+static const effect_parameter_t parameters[] = {
+    [GAIN] = {"gain", "1/column", ANY_NUMBER, .optional = true},
+    [OFFSET] = {"offset", "output/column", ANY_NUMBER, .optional = true},
+    [WIDTH] = {"width", "envelope/column", ANY_NUMBER, .optional = true},
+};
+
+/// For a column that goes as far as 1 from its reference; effect_use_limits divides by how far it goes.
+static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    const double size = parameter == GAIN     ? 1.0
+                        : parameter == OFFSET ? limits_output_span(run)
+                                              : fmax(run->largest_radius, DBL_MIN);
+    *result = limits_linear(-2.0 * size, 2.0 * size, 0.0, 0.05 * size, -0.05 * size, 0.0);
+}
+
+static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
+        series[i] = series[i] * (1.0 + parameter[GAIN] * column[i]) + parameter[OFFSET] * column[i];
+    }
+}
+
+static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
+        const double gain = 1.0 + parameter[GAIN] * column[i];
+        if (gain > 0.0) {
+            series[i] = (series[i] - parameter[OFFSET] * column[i]) / gain;
+        }
+    }
+}
+
+static void configure(const effect_run_t* run, const double* parameter, const double* column,
+                      hysteresis_t* hysteresis)
+{
+    if (column == NULL || !(fabs(parameter[WIDTH]) > 0.0)) {
+        return;
+    }
+    if (hysteresis->width == NULL) {
+        hysteresis->width = xcalloc(run->num_samples, sizeof(double));
+    }
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        hysteresis->width[i] += parameter[WIDTH] * column[i];
+    }
+}
+
+const effect_t effect_exogenous = {
+    .name = "exogenous",
+    .stage = EFFECT_BODY,
+    .transferable = true,
+    .needs_column = true,
+    .num_parameters = COUNT_OF(parameters),
+    .parameter = parameters,
+    .limits = limits,
+    .apply = apply,
+    .configure = configure,
+    .invert = invert,
+    .clips = true,
+};

@@ -1,0 +1,129 @@
+#include "effect_lag.h"
+#include "effect_limits.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+lag_step_t lag_step(double step, double tau)
+{
+    if (!(tau > 0.0)) {
+        return (lag_step_t){0.0, 1.0};
+    }
+    const double z = step / tau;
+    const double missing = -expm1(-z);
+    // Below 1e-5 the series is right to the last bit, where the difference cancels.
+    return (lag_step_t){1.0 - missing, z < 1e-5 ? z * (0.5 - z / 6.0) : 1.0 - missing / z};
+}
+
+double lag_next(lag_step_t lag, double state, double from, double to)
+{
+    return lag.decay * state + (1.0 - lag.decay) * from + lag.ramp * (to - from);
+}
+
+static void lag_series(const effect_run_t* run, const double* tau, double* series)
+{
+    double from = run->num_samples > 0 ? series[0] : 0.0;
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double to = series[i];
+        series[i] = lag_next(lag_step(run->time[i] - run->time[i - 1], *tau), series[i - 1], from, to);
+        from = to;
+    }
+}
+
+void series_derivatives(const effect_run_t* run, const double* series, double* slope, double* curvature)
+{
+    const size_t count = run->num_samples;
+    for (size_t i = 0; i < count; ++i) {
+        slope[i] = 0.0;
+        curvature[i] = 0.0;
+        if (i == 0) {
+            continue;
+        }
+        const double before = run->time[i] - run->time[i - 1];
+        const double left = (series[i] - series[i - 1]) / before;
+        if (i + 1 == count) {
+            slope[i] = left;
+            continue;
+        }
+        const double after = run->time[i + 1] - run->time[i];
+        const double right = (series[i + 1] - series[i]) / after;
+        slope[i] = (after * left + before * right) / (before + after);
+        curvature[i] = 2.0 * (right - left) / (before + after);
+    }
+}
+
+static double largest_defect(const double* wanted, const double* given, size_t count, double* defect)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        defect[i] = wanted[i] - given[i];
+        largest = fmax(largest, fabs(defect[i]));
+    }
+    return largest;
+}
+
+void series_invert(const effect_run_t* run, const double* parameter, series_map_t* apply, series_map_t* lead,
+                   double* series)
+{
+    enum { CORRECTIONS = 20 };
+    const size_t count = run->num_samples;
+    const size_t size = count * sizeof(double);
+    double* wanted = memcpy(xmalloc(size), series, size);
+    double* trial = xmalloc(size);
+    double* given = xmalloc(size);
+    double* defect = xmalloc(size);
+    memcpy(trial, series, size);
+    lead(run, parameter, trial);
+    double least = HUGE_VAL;
+    for (int i = 0; i < CORRECTIONS; ++i) {
+        memcpy(given, trial, size);
+        apply(run, parameter, given);
+        const double largest = largest_defect(wanted, given, count, defect);
+        if (!(largest < least)) {
+            break;
+        }
+        least = largest;
+        memcpy(series, trial, size);
+        lead(run, parameter, defect);
+        for (size_t k = 0; k < count; ++k) {
+            trial[k] += defect[k];
+        }
+    }
+    free(wanted);
+    free(trial);
+    free(given);
+    free(defect);
+}
+
+static void lead_series(const effect_run_t* run, const double* tau, double* series)
+{
+    const size_t size = run->num_samples * sizeof(double);
+    double* slope = xmalloc(size);
+    double* curvature = xmalloc(size);
+    series_derivatives(run, series, slope, curvature);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        series[i] += *tau * slope[i];
+    }
+    free(slope);
+    free(curvature);
+}
+
+const effect_parameter_t lag_parameter = {"tau", "s", AT_LEAST_0};
+
+void lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* limits)
+{
+    (void)parameter;
+    *limits = limits_time_constant(run);
+}
+
+void lag_apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    lag_series(run, parameter, series);
+}
+
+void lag_invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    series_invert(run, parameter, lag_series, lead_series, series);
+}

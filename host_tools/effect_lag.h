@@ -1,0 +1,31 @@
+/// First-order lags, exact for an input that is linear between the samples, and leads.
+#ifndef HYST_HOST_EFFECT_LAG_H
+#define HYST_HOST_EFFECT_LAG_H
+
+#include "effect.h"
+
+/// What a step of a lag does: next = decay * state + (1 - decay) * u0 + ramp * (u1 - u0).
+typedef struct {
+    double decay, ramp;
+} lag_step_t;
+/// tau 0: the input itself.
+lag_step_t lag_step(double step, double tau);
+double lag_next(lag_step_t lag, double state, double from, double to);
+
+/// The slope and curvature of the parabola through each sample and its neighbours, the series at rest before
+/// its first value and straight beyond its last: slope[num_samples], curvature[num_samples].
+void series_derivatives(const effect_run_t* run, const double* series, double* slope, double* curvature);
+
+/// series := what `apply` turns into it, from a `lead` that is right up to discretisation, by repeated
+/// correction of what it misses as long as that gets less. Both work in place.
+typedef void series_map_t(const effect_run_t* run, const double* parameter, double* series);
+void series_invert(const effect_run_t* run, const double* parameter, series_map_t* apply, series_map_t* lead,
+                   double* series);
+
+/// What input_lag and output_lag have in common: {tau}.
+extern const effect_parameter_t lag_parameter;
+void lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
+void lag_apply(const effect_run_t* run, const double* parameter, const double* column, double* series);
+void lag_invert(const effect_run_t* run, const double* parameter, const double* column, double* series);
+
+#endif

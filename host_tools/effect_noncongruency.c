@@ -1,0 +1,87 @@
+/// noncongruency: minor loops between equal reversals differ with level, as no PI model allows.
+///     product:    S' = S_m + (1 + level_gain * level(v)) (S - S_m): weights that depend on the input
+///     moving:     the plays see v + moving * half range * (S - S_m) / S_h: a mean field
+///     increment:  dS' = (1 + level_gain * level(v)) dS: what a loop's two branches gain and lose does not
+///     cancel, so
+///                 that each cycle also shifts the output
+/// S: the plays' weighted sum, S_m and S_h the middle and half of its span between the saturations, level(v)
+/// from -1 to 1 over the model's input range. level_gain in (-1, 1), moving in [-1, 1] [1]. Sources: I. D.
+/// Mayergoyz, Mathematical Models of Hysteresis, 1991, ch. II (input-dependent model); E. Della Torre, IEEE
+/// Trans. Audio 14 (1966) 86 (moving model).
+#include "effect_catalogue.h"
+#include "effect_limits.h"
+
+static const effect_parameter_t gain_parameter[] = {{"level_gain", "1", .least = -0.99, .most = 0.99}};
+
+static const effect_parameter_t moving_parameter[] = {{"moving", "1", .least = -1.0, .most = 1.0}};
+
+static void gain_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)run;
+    (void)parameter;
+    *result = limits_linear(-0.8, 0.8, 0.0, 0.1, -0.1, 0.4);
+}
+
+static void moving_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)run;
+    (void)parameter;
+    *result = limits_linear(-0.5, 0.5, 0.0, 0.05, -0.05, 0.2);
+}
+
+static void configure_product(const effect_run_t* run, const double* parameter, const double* column,
+                              hysteresis_t* hysteresis)
+{
+    (void)run;
+    (void)column;
+    hysteresis->level_product += parameter[0];
+}
+
+static void configure_moving(const effect_run_t* run, const double* parameter, const double* column,
+                             hysteresis_t* hysteresis)
+{
+    (void)run;
+    (void)column;
+    hysteresis->moving += parameter[0];
+}
+
+static void configure_increment(const effect_run_t* run, const double* parameter, const double* column,
+                                hysteresis_t* hysteresis)
+{
+    (void)run;
+    (void)column;
+    hysteresis->level_gain += parameter[0];
+}
+
+const effect_t effect_noncongruency_product = {
+    .name = "noncongruency",
+    .mechanism = "product",
+    .stage = EFFECT_HYSTERESIS,
+    .transferable = true,
+    .num_parameters = COUNT_OF(gain_parameter),
+    .parameter = gain_parameter,
+    .limits = gain_limits,
+    .configure = configure_product,
+};
+
+const effect_t effect_noncongruency_moving = {
+    .name = "noncongruency",
+    .mechanism = "moving",
+    .stage = EFFECT_HYSTERESIS,
+    .transferable = true,
+    .num_parameters = COUNT_OF(moving_parameter),
+    .parameter = moving_parameter,
+    .limits = moving_limits,
+    .configure = configure_moving,
+};
+
+const effect_t effect_noncongruency_increment = {
+    .name = "noncongruency",
+    .mechanism = "increment",
+    .stage = EFFECT_HYSTERESIS,
+    .transferable = true,
+    .num_parameters = COUNT_OF(gain_parameter),
+    .parameter = gain_parameter,
+    .limits = gain_limits,
+    .configure = configure_increment,
+};

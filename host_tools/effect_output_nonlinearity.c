@@ -1,0 +1,107 @@
+/// output_nonlinearity: a smooth static map on the output (a sensor's characteristic, a lever's geometry).
+///     y' = y + half (quadratic z^2 + cubic z^3),  z = (y - middle) / half
+/// middle and half of the model's output between its two saturations; beyond |z| = 1 the map goes on
+/// straight. quadratic, cubic [1], the map increasing: 1 + 2 quadratic z + 3 cubic z^2 > 0 on [-1, 1].
+/// Inverse: by halving.
+#include "effect_catalogue.h"
+#include "effect_limits.h"
+#include <math.h>
+
+enum { QUADRATIC, CUBIC };
+
+static const effect_parameter_t parameters[] = {
+    [QUADRATIC] = {"quadratic", "1", .least = -10.0, .most = 10.0},
+    [CUBIC] = {"cubic", "1", .least = -10.0, .most = 10.0},
+};
+
+static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)run;
+    // 1 - 2 * 0.3 - 3 * 0.13 > 0: increasing anywhere in the box.
+    *result = parameter == QUADRATIC ? limits_linear(-0.3, 0.3, 0.0, 0.0, 0.05, -0.05)
+                                     : limits_linear(-0.13, 0.3, 0.0, 0.0, -0.05, 0.05);
+}
+
+static double slope_at(const double* parameter, double z)
+{
+    return 1.0 + z * (2.0 * parameter[QUADRATIC] + 3.0 * parameter[CUBIC] * z);
+}
+
+static const char* fault(const double* parameter)
+{
+    double least = fmin(slope_at(parameter, -1.0), slope_at(parameter, 1.0));
+    if (parameter[CUBIC] > 0.0) {
+        const double lowest = -parameter[QUADRATIC] / (3.0 * parameter[CUBIC]);
+        least = fmin(least, slope_at(parameter, fmin(fmax(lowest, -1.0), 1.0)));
+    }
+    return least > 0.0 ? NULL
+                       : "output_nonlinearity: the map does not increase over the model's output range";
+}
+
+static double map(const double* parameter, double z)
+{
+    const double end = fmin(fmax(z, -1.0), 1.0);
+    const double at_end = end + end * end * (parameter[QUADRATIC] + parameter[CUBIC] * end);
+    return at_end + slope_at(parameter, end) * (z - end);
+}
+
+/// The z with map(z) = image.
+static double unmap(const double* parameter, double image)
+{
+    const double low = map(parameter, -1.0);
+    const double high = map(parameter, 1.0);
+    if (image <= low) {
+        return -1.0 + (image - low) / slope_at(parameter, -1.0);
+    }
+    if (image >= high) {
+        return 1.0 + (image - high) / slope_at(parameter, 1.0);
+    }
+    double from = -1.0;
+    double to = 1.0;
+    // 2^-60 of the interval is below the last bit of an image of the order of 1.
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (from + to);
+        if (map(parameter, middle) < image) {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    return 0.5 * (from + to);
+}
+
+typedef double map_t(const double* parameter, double z);
+
+static void run_map(const effect_run_t* run, const double* parameter, map_t* function, double* series)
+{
+    const double middle = 0.5 * (run->output_min + run->output_max);
+    const double half = 0.5 * (run->output_max - run->output_min);
+    for (size_t i = 0; half > 0.0 && i < run->num_samples; ++i) {
+        const double z = (series[i] - middle) / half;
+        series[i] += half * (function(parameter, z) - z);
+    }
+}
+
+static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    run_map(run, parameter, map, series);
+}
+
+static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    run_map(run, parameter, unmap, series);
+}
+
+const effect_t effect_output_nonlinearity = {
+    .name = "output_nonlinearity",
+    .stage = EFFECT_SENSOR,
+    .transferable = true,
+    .num_parameters = COUNT_OF(parameters),
+    .parameter = parameters,
+    .fault = fault,
+    .limits = limits,
+    .apply = apply,
+    .invert = invert,
+};

@@ -1,0 +1,63 @@
+/// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
+///     y' = y + amplitude_sin sin(2 pi frequency t) + amplitude_cos cos(2 pi frequency t)
+/// t: the record's own time. frequency > 0 [Hz], fitted between one period in the record and half the sample
+/// rate; amplitudes [output units].
+#include "effect_catalogue.h"
+#include "effect_limits.h"
+#include <math.h>
+
+enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS };
+
+static const double two_pi = 6.283185307179586;
+
+static const effect_parameter_t parameters[] = {
+    [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},
+    [AMPLITUDE_SIN] = {"amplitude_sin", "output", ANY_NUMBER},
+    [AMPLITUDE_COS] = {"amplitude_cos", "output", ANY_NUMBER},
+};
+
+static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    if (parameter != FREQUENCY) {
+        const double span = limits_output_span(run);
+        *result = limits_linear(-span, span, 0.0, 0.02 * span, -0.02 * span, 0.0);
+        return;
+    }
+    const double low = 1.0 / run->duration;
+    const double high = fmax(0.5 / run->sample_time, 2.0 * low);
+    const double middle = sqrt(low * high);
+    *result = limits_logarithmic(low, high, middle, middle, sqrt(low * middle), sqrt(middle * high));
+}
+
+static void add(const effect_run_t* run, const double* parameter, double sign, double* series)
+{
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        // Whole periods off first, in the period's own unit: a late record keeps its phase.
+        const double periods = parameter[FREQUENCY] * run->time[i];
+        const double angle = two_pi * (periods - floor(periods));
+        series[i] += sign * (parameter[AMPLITUDE_SIN] * sin(angle) + parameter[AMPLITUDE_COS] * cos(angle));
+    }
+}
+
+static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    add(run, parameter, 1.0, series);
+}
+
+static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    add(run, parameter, -1.0, series);
+}
+
+const effect_t effect_periodic_disturbance = {
+    .name = "periodic_disturbance",
+    .stage = EFFECT_SENSOR,
+    .transferable = true,
+    .num_parameters = COUNT_OF(parameters),
+    .parameter = parameters,
+    .limits = limits,
+    .apply = apply,
+    .invert = invert,
+};

@@ -1,0 +1,101 @@
+/// resonance: second-order, lightly damped mode behind the hysteresis (the stage on the actuator).
+///     y'' + 2 damping w y' + w^2 y = w^2 x,  w = 2 pi frequency, at rest at the first value before the
+///     record
+/// Exact for a course that is linear between the samples, stable for any step. frequency > 0 [Hz], damping 0
+/// ... 0.999 [1]. At high frequency it does nothing. Inverse: x = y + 2 damping/w y' + y''/w^2.
+#include "effect_catalogue.h"
+#include "effect_lag.h"
+#include "effect_limits.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum { FREQUENCY, DAMPING };
+
+static const double two_pi = 6.283185307179586;
+
+static const effect_parameter_t parameters[] = {
+    [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},
+    [DAMPING] = {"damping", "1", .least = 0.0, .most = 0.999},
+};
+
+static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    if (parameter == DAMPING) {
+        *result = limits_logarithmic(1e-3, 0.999, 0.7, 0.05, 0.2, 0.01);
+        return;
+    }
+    const double high = 5.0 / run->sample_time;
+    *result = limits_logarithmic(fmin(0.5 / run->duration, 0.5 * high), high, high, 0.05 / run->sample_time,
+                                 0.015 / run->sample_time, 0.15 / run->sample_time);
+}
+
+/// What a step of the free mode does to (e, e'/w).
+typedef struct {
+    double cosine, sine; ///< e^(-damping w t) cos(w_d t), e^(-damping w t) sin(w_d t) / sqrt(1 - damping^2)
+} rotation_t;
+
+static rotation_t rotation(double w, double damping, double step)
+{
+    const double root = sqrt(1.0 - damping * damping);
+    const double decay = exp(-damping * w * step);
+    return (rotation_t){decay * cos(w * root * step), decay * sin(w * root * step) / root};
+}
+
+static void apply_series(const effect_run_t* run, const double* parameter, double* series)
+{
+    const double w = two_pi * parameter[FREQUENCY];
+    const double damping = parameter[DAMPING];
+    double from = run->num_samples > 0 ? series[0] : 0.0;
+    double place = from;
+    double speed = 0.0; // y'/w
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double step = run->time[i] - run->time[i - 1];
+        const double to = series[i];
+        // Follows x = from + slope w t with the lag 2 damping slope; the rest rings.
+        const double slope = (to - from) / (w * step);
+        const double e = place - from + 2.0 * damping * slope;
+        const double f = speed - slope;
+        const rotation_t turn = rotation(w, damping, step);
+        place = to - 2.0 * damping * slope + turn.cosine * e + turn.sine * (damping * e + f);
+        speed = slope + turn.cosine * f - turn.sine * (e + damping * f);
+        series[i] = place;
+        from = to;
+    }
+}
+
+static void lead_series(const effect_run_t* run, const double* parameter, double* series)
+{
+    const double w = two_pi * parameter[FREQUENCY];
+    const size_t size = run->num_samples * sizeof(double);
+    double* slope = xmalloc(size);
+    double* curvature = xmalloc(size);
+    series_derivatives(run, series, slope, curvature);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        series[i] += 2.0 * parameter[DAMPING] / w * slope[i] + curvature[i] / (w * w);
+    }
+    free(slope);
+    free(curvature);
+}
+
+static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    apply_series(run, parameter, series);
+}
+
+static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
+{
+    (void)column;
+    series_invert(run, parameter, apply_series, lead_series, series);
+}
+
+const effect_t effect_resonance = {
+    .name = "resonance",
+    .stage = EFFECT_SENSOR,
+    .transferable = true,
+    .num_parameters = COUNT_OF(parameters),
+    .parameter = parameters,
+    .limits = limits,
+    .apply = apply,
+    .invert = invert,
+};

@@ -1,0 +1,241 @@
+#include "effect.h"
+#include "output_range.h"
+#include "reference.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int ascending_order(const void* left, const void* right)
+{
+    const double a = *(const double*)left;
+    const double b = *(const double*)right;
+    return (a > b ? 1 : 0) - (a < b ? 1 : 0);
+}
+
+static double median_step(const double* time, size_t num_samples)
+{
+    if (num_samples < 2) {
+        return 1.0;
+    }
+    const size_t count = num_samples - 1;
+    double* step = xcalloc(count, sizeof(double));
+    for (size_t i = 0; i < count; ++i) {
+        step[i] = time[i + 1] - time[i];
+    }
+    qsort(step, count, sizeof(double), ascending_order);
+    const double median = step[count / 2];
+    free(step);
+    return median;
+}
+
+static double output_span(const model_t* model, const double* input, size_t num_samples)
+{
+    double* output = xcalloc(num_samples, sizeof(double));
+    reference_run(model, START_MODEL, input, num_samples, output);
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (size_t i = 0; i < num_samples; ++i) {
+        low = fmin(low, output[i]);
+        high = fmax(high, output[i]);
+    }
+    free(output);
+    return high > low ? high - low : 0.0;
+}
+
+effect_run_t effect_run_new(const model_t* model, const record_t* record)
+{
+    const size_t count = record->num_samples;
+    effect_run_t run = {.num_samples = count,
+                        .time = record->time,
+                        .input = record->input,
+                        .record = record,
+                        .input_span = model->input_max - model->input_min,
+                        .output_min = model_output_min(model),
+                        .output_max = model_output_max(model),
+                        .largest_radius = model_largest_moving_radius(model)};
+    if (record->time == NULL) {
+        double* seconds = xcalloc(count, sizeof(double));
+        for (size_t i = 0; i < count; ++i) {
+            seconds[i] = (double)i;
+        }
+        run.time = seconds;
+    }
+    run.sample_time = median_step(run.time, count);
+    run.duration = count > 1 ? run.time[count - 1] - run.time[0] : run.sample_time;
+    run.output_span = run.output_max - run.output_min;
+    if (run.input == NULL) {
+        return run;
+    }
+    run.output_span = output_span(model, run.input, count);
+    for (size_t i = 1; i < count; ++i) {
+        const double move = fabs(run.input[i] - run.input[i - 1]);
+        run.travel += move;
+        run.input_rate = fmax(run.input_rate, move / (run.time[i] - run.time[i - 1]));
+    }
+    return run;
+}
+
+void effect_run_free(effect_run_t* run)
+{
+    if (run->record != NULL && run->time != run->record->time) {
+        free((void*)(uintptr_t)run->time);
+    }
+    *run = (effect_run_t){0};
+}
+
+static const column_t* find_column(const record_t* record, const char* name)
+{
+    for (size_t i = 0; record != NULL && i < record->num_auxiliary; ++i) {
+        if (strcmp(record->auxiliary[i].name, name) == 0) {
+            return &record->auxiliary[i];
+        }
+    }
+    return NULL;
+}
+
+outcome_t effect_check_columns(const record_t* record, const effect_use_t* uses, size_t num_uses)
+{
+    for (size_t u = 0; u < num_uses; ++u) {
+        if (!uses[u].effect->needs_column || find_column(record, uses[u].column) != NULL) {
+            continue;
+        }
+        char names[200] = "";
+        size_t length = 0;
+        for (size_t i = 0; i < record->num_auxiliary && length < sizeof names - 1; ++i) {
+            const int written = snprintf(names + length, sizeof names - length, "%s\"%s\"", i > 0 ? ", " : "",
+                                         record->auxiliary[i].name);
+            length += written > 0 ? (size_t)written : 0;
+        }
+        return message_error(
+            OUTCOME_BAD_INPUT, (location_t){.file = record->path},
+            "the model's effect \"%s\" follows a column \"%s\" of numbers, which the record does not "
+            "have; its auxiliary columns: %s",
+            uses[u].effect->name, uses[u].column, names[0] != '\0' ? names : "none");
+    }
+    return OUTCOME_OK;
+}
+
+/// The use's column as its effect takes it, allocated; NULL when it follows none.
+static double* centred_column(const effect_run_t* run, const effect_use_t* use)
+{
+    const column_t* column = use->effect->needs_column ? find_column(run->record, use->column) : NULL;
+    if (column == NULL) {
+        return NULL;
+    }
+    const double reference = use->has_reference ? use->reference : column->value[0];
+    double* centred = xcalloc(run->num_samples, sizeof(double));
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        centred[i] = column->value[i] - reference;
+    }
+    return centred;
+}
+
+void effect_use_apply(const effect_run_t* run, const effect_use_t* use, double* series)
+{
+    double* column = centred_column(run, use);
+    use->effect->apply(run, use->parameter, column, series);
+    free(column);
+}
+
+void effect_use_invert(const effect_run_t* run, const effect_use_t* use, double* series)
+{
+    double* column = centred_column(run, use);
+    use->effect->invert(run, use->parameter, column, series);
+    free(column);
+}
+
+effect_limits_t effect_use_limits(const effect_run_t* run, const effect_use_t* use, size_t parameter)
+{
+    effect_limits_t limits;
+    use->effect->limits(run, parameter, &limits);
+    double* column = centred_column(run, use);
+    double size = 0.0;
+    for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
+        size = fmax(size, fabs(column[i]));
+    }
+    free(column);
+    if (size > 0.0) {
+        limits = (effect_limits_t){
+            .low = limits.low / size,
+            .high = limits.high / size,
+            .neutral = limits.neutral / size,
+            .start = {limits.start[0] / size, limits.start[1] / size, limits.start[2] / size}};
+    }
+    return limits;
+}
+
+/// The uses of one stage in the catalogue's order, among equals in the given one.
+static void apply_stage(const effect_run_t* run, const effect_use_t* uses, size_t num_uses,
+                        effect_stage_t stage, double* series)
+{
+    for (size_t e = 0; e < effect_count(); ++e) {
+        const effect_t* effect = effect_at(e);
+        for (size_t u = 0; effect->stage == stage && u < num_uses; ++u) {
+            if (uses[u].effect == effect && effect->apply != NULL) {
+                effect_use_apply(run, &uses[u], series);
+            }
+        }
+    }
+}
+
+hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses, size_t num_uses)
+{
+    hysteresis_t hysteresis = hysteresis_neutral();
+    for (size_t u = 0; u < num_uses; ++u) {
+        if (uses[u].effect->configure != NULL) {
+            double* column = centred_column(run, &uses[u]);
+            uses[u].effect->configure(run, uses[u].parameter, column, &hysteresis);
+            free(column);
+        }
+    }
+    return hysteresis;
+}
+
+static void run_fast(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
+                     const double* input, double* output)
+{
+    double* sum = xmalloc(run->num_samples * sizeof(double));
+    fast_plays_run(run->fast, input, run->num_samples, sum);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        output[i] = fast_plays_nonhysteretic(run->fast, input[i]);
+    }
+    hysteresis_from_sums(model, hysteresis, input, sum, run->num_samples, output);
+    free(sum);
+}
+
+void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
+                                const effect_use_t* uses, size_t num_uses, double* output)
+{
+    if (run->num_samples == 0) {
+        return;
+    }
+    const size_t size = run->num_samples * sizeof(double);
+    double* drive = memcpy(xmalloc(size), run->input, size);
+    apply_stage(run, uses, num_uses, EFFECT_DRIVE, drive);
+    hysteresis_t hysteresis = effect_hysteresis(run, uses, num_uses);
+    if (run->fast != NULL && hysteresis_keeps_plays(&hysteresis)) {
+        run_fast(run, model, &hysteresis, drive, output);
+    } else {
+        hysteresis_run(model, start, &hysteresis, run->time, drive, run->num_samples, output);
+    }
+    hysteresis_free(&hysteresis);
+    free(drive);
+}
+
+void effect_simulate_rest(const effect_run_t* run, const effect_use_t* uses, size_t num_uses, double* series)
+{
+    if (run->num_samples == 0) {
+        return;
+    }
+    apply_stage(run, uses, num_uses, EFFECT_BODY, series);
+    apply_stage(run, uses, num_uses, EFFECT_SENSOR, series);
+}
+
+void effect_simulate(const effect_run_t* run, const model_t* model, start_t start, const effect_use_t* uses,
+                     size_t num_uses, double* output)
+{
+    effect_simulate_hysteresis(run, model, start, uses, num_uses, output);
+    effect_simulate_rest(run, uses, num_uses, output);
+}

@@ -1,0 +1,396 @@
+#include "hysteresis.h"
+#include "reference.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+hysteresis_t hysteresis_neutral(void)
+{
+    return (hysteresis_t){0};
+}
+
+void hysteresis_free(hysteresis_t* hysteresis)
+{
+    free(hysteresis->width);
+    *hysteresis = hysteresis_neutral();
+}
+
+static bool differs(double value)
+{
+    return fabs(value) > 0.0;
+}
+
+bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
+{
+    return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) &&
+           !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
+           !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
+           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+}
+
+/// The input's place in the model's range, -1 ... 1; beyond the range its end's.
+static double level(const model_t* model, double v)
+{
+    const double half = 0.5 * (model->input_max - model->input_min);
+    return fmin(fmax((v - model->input_min) / half - 1.0, -1.0), 1.0);
+}
+
+/// The middle and half of what the plays' sum spans between the saturations.
+static void set_sum_range(hysteresis_state_t* state)
+{
+    const model_t* model = state->model;
+    const double low = curve_value(&model->descending, model->input_min);
+    const double high = curve_value(&model->ascending, model->input_max);
+    for (size_t j = 0; j < model->num_plays; ++j) {
+        state->sum_middle += model->weight[j] * 0.5 * (low + high);
+        state->sum_half += model->weight[j] * fmax(0.5 * (high - low) - model->radius[j], 0.0);
+    }
+}
+
+static double weighted_sum(const model_t* model, const double* memory)
+{
+    double sum = 0.0;
+    for (size_t j = 0; j < model->num_plays; ++j) {
+        sum += model->weight[j] * memory[j];
+    }
+    return sum;
+}
+
+/// Both envelopes at one end of a step, and what the radii grow by there.
+typedef struct {
+    double ascending, descending, extra;
+} strip_t;
+
+static strip_t strip_at(const model_t* model, double v, double extra)
+{
+    return (strip_t){curve_value(&model->ascending, v), curve_value(&model->descending, v), extra};
+}
+
+static double lower_end(const strip_t* strip, double radius)
+{
+    return strip->ascending - fmax(radius + strip->extra, 0.0);
+}
+
+static double upper_end(const strip_t* strip, double radius)
+{
+    return strip->descending + fmax(radius + strip->extra, 0.0);
+}
+
+/// Where a state ends that a bound, moving evenly from `from` to `to` in `step` seconds, pulls up: w' =
+/// (bound - w)/lag below it, 0 above. With e = bound - w and the bound's speed s: e(t) = s lag + (e0 - s lag)
+/// exp(-t/lag).
+static double pulled_up(double w, double from, double to, double step, double lag)
+{
+    const double speed = (to - from) / step;
+    const double below = from - w;
+    if (below > 0.0) {
+        if (speed < 0.0) {
+            const double meeting = lag * log1p(below / (-speed * lag));
+            if (meeting < step) {
+                return from + speed * meeting;
+            }
+        }
+        return to - below * exp(-step / lag) + speed * (lag * expm1(-step / lag));
+    }
+    if (to > w) {
+        const double left = (to - w) / speed;
+        return to + speed * (lag * expm1(-left / lag));
+    }
+    return w;
+}
+
+static double pulled_down(double w, double from, double to, double step, double lag)
+{
+    return -pulled_up(-w, -from, -to, step, lag);
+}
+
+/// One play through one step; direction 1 rising, -1 falling, 0 held.
+static double lagged(double w, double radius, const strip_t* from, const strip_t* to, int direction,
+                     double step, double lag)
+{
+    const double low[2] = {lower_end(from, radius), lower_end(to, radius)};
+    const double high[2] = {upper_end(from, radius), upper_end(to, radius)};
+    if (direction < 0) {
+        w = pulled_up(w, low[0], low[1], step, lag);
+        return pulled_down(w, high[0], high[1], step, lag);
+    }
+    w = pulled_down(w, high[0], high[1], step, lag);
+    return pulled_up(w, low[0], low[1], step, lag);
+}
+
+/// Eq. (6) where the radii are the model's own. Where they change, a play may also be pushed while the input
+/// holds or by the strip's other side.
+static double moved(double w, double radius, const strip_t* to, int direction, bool own_radii)
+{
+    const double low = direction >= 0 || !own_radii ? lower_end(to, radius) : w;
+    const double high = direction <= 0 || !own_radii ? upper_end(to, radius) : w;
+    if (direction == 0 && own_radii) {
+        return w;
+    }
+    return direction < 0 ? fmin(high, fmax(low, w)) : fmax(low, fmin(high, w));
+}
+
+static void move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
+{
+    const model_t* model = state->model;
+    const hysteresis_t* hysteresis = state->hysteresis;
+    const double* width = hysteresis->width;
+    const double speed = hysteresis->widening * fabs(v - state->input) / step;
+    const strip_t from = strip_at(model, state->input, speed + (width != NULL ? width[state->sample] : 0.0));
+    const strip_t to = strip_at(model, v, speed + (width != NULL ? width[state->sample + 1] : 0.0));
+    const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
+    const bool own_radii = width == NULL && !differs(hysteresis->widening);
+    for (size_t j = 0; j < model->num_plays; ++j) {
+        const double w = state->memory[j];
+        memory[j] = hysteresis->play_lag > 0.0
+                        ? lagged(w, model->radius[j], &from, &to, direction, step, hysteresis->play_lag)
+                        : moved(w, model->radius[j], &to, direction, own_radii);
+    }
+}
+
+/// What the plays see of the command v when their sum is `sum`.
+static double shift(const hysteresis_state_t* state, double v, double sum)
+{
+    const double half_range = 0.5 * (state->model->input_max - state->model->input_min);
+    const double part = fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
+    return v + state->hysteresis->moving * half_range * part;
+}
+
+/// The moving model's input: v shifted by what the plays give at that very input. A secant search of the
+/// fixed point; between the plays' kinks the sum is nearly linear, so few steps do. It is unique where
+/// |moving| times the loop's relative steepness is below 1.
+static double shifted(const hysteresis_state_t* state, double v, double step)
+{
+    enum { ITERATIONS = 30 };
+    const model_t* model = state->model;
+    if (!differs(state->hysteresis->moving) || !(state->sum_half > 0.0)) {
+        return v;
+    }
+    const double tolerance = 1e-13 * (model->input_max - model->input_min);
+    double* scratch = state->memory + model->num_plays;
+    double seen = shift(state, v, state->sum);
+    double before = seen;
+    double image_before = seen;
+    for (int i = 0; i < ITERATIONS; ++i) {
+        move_plays(state, seen, step, scratch);
+        const double image = shift(state, v, weighted_sum(model, scratch));
+        if (fabs(image - seen) <= tolerance) {
+            return image;
+        }
+        const double run = seen - before;
+        const double slope = differs(run) ? (image - image_before) / run : 0.0;
+        before = seen;
+        image_before = image;
+        seen = fabs(slope) < 0.95 ? (image - slope * seen) / (1.0 - slope) : image;
+    }
+    return seen;
+}
+
+/// What a step leads to, beside the plays' memory.
+typedef struct {
+    double seen, travel, sum, correction;
+} outlook_t;
+
+/// How far increments (amplitude: the sum about its middle) scale at input v after `travel`.
+static double increment_factor(const hysteresis_state_t* state, double v, double travel)
+{
+    const hysteresis_t* hysteresis = state->hysteresis;
+    const double spans = travel / (state->model->input_max - state->model->input_min);
+    return (1.0 + hysteresis->level_gain * level(state->model, v)) * exp(-hysteresis->wear * spans);
+}
+
+static double amplitude_factor(const hysteresis_state_t* state, double v, double travel)
+{
+    const hysteresis_t* hysteresis = state->hysteresis;
+    const double spans = travel / (state->model->input_max - state->model->input_min);
+    return (1.0 + hysteresis->level_product * level(state->model, v)) * exp(-hysteresis->fade * spans);
+}
+
+/// The next sample, its memory into scratch.
+static outlook_t look(const hysteresis_state_t* state, double v, double step)
+{
+    const hysteresis_t* hysteresis = state->hysteresis;
+    double* scratch = state->memory + state->model->num_plays;
+    outlook_t next = {.seen = shifted(state, v, step)};
+    move_plays(state, next.seen, step, scratch);
+    next.travel = state->travel + fabs(v - state->command);
+    next.sum = weighted_sum(state->model, scratch);
+    next.correction = state->correction;
+    if (differs(hysteresis->level_gain) || differs(hysteresis->wear)) {
+        const double factor =
+            increment_factor(state, 0.5 * (v + state->command), 0.5 * (next.travel + state->travel));
+        next.correction += (factor - 1.0) * (next.sum - state->sum);
+    }
+    return next;
+}
+
+static double output_at(const hysteresis_state_t* state, double v, const outlook_t* at)
+{
+    const hysteresis_t* hysteresis = state->hysteresis;
+    double output = curve_value(&state->model->nonhysteretic, v) + at->sum + at->correction;
+    if (differs(hysteresis->level_product) || differs(hysteresis->fade)) {
+        output += (amplitude_factor(state, v, at->travel) - 1.0) * (at->sum - state->sum_middle);
+    }
+    return output;
+}
+
+/// initial_state: each play between its strip's bottom, its own start and its strip's top by a fraction that
+/// is linear over the radii; then 1-Lipschitz in the radius, as every memory is.
+static void place_plays(const hysteresis_state_t* state)
+{
+    const model_t* model = state->model;
+    const hysteresis_t* hysteresis = state->hysteresis;
+    const double first = model->radius[0];
+    const double span = model->radius[model->num_plays - 1] - first;
+    const strip_t strip = strip_at(model, state->input, 0.0);
+    for (size_t j = 0; j < model->num_plays; ++j) {
+        const double radius = model->radius[j];
+        const double last_node = (double)(hysteresis->num_nodes - 1);
+        const double place = span > 0.0 ? (radius - first) / span * last_node : 0.0;
+        const size_t node = (size_t)fmin(floor(place), last_node - 1.0);
+        const double part = place - (double)node;
+        const double fraction =
+            (1.0 - part) * hysteresis->start_fraction[node] + part * hysteresis->start_fraction[node + 1];
+        const double end = fraction > 0.0 ? upper_end(&strip, radius) : lower_end(&strip, radius);
+        double* w = &state->memory[j];
+        *w += fabs(fraction) * (end - *w);
+        if (j > 0) {
+            const double reach = radius - model->radius[j - 1];
+            *w = fmin(fmax(*w, w[-1] - reach), w[-1] + reach);
+        }
+    }
+}
+
+hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
+                                    double first_input)
+{
+    reference_t reference = reference_new(model, start, first_input);
+    hysteresis_state_t state = {.model = model,
+                                .hysteresis = hysteresis,
+                                .input = first_input,
+                                .command = first_input,
+                                .memory = xcalloc(2 * model->num_plays, sizeof(double))};
+    memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
+    reference_free(&reference);
+    if (hysteresis->start_fraction != NULL) {
+        place_plays(&state);
+    }
+    if (hysteresis->width != NULL) {
+        const strip_t strip = strip_at(model, first_input, hysteresis->width[0]);
+        for (size_t j = 0; j < model->num_plays; ++j) {
+            state.memory[j] = moved(state.memory[j], model->radius[j], &strip, 0, false);
+        }
+    }
+    state.sum = weighted_sum(model, state.memory);
+    set_sum_range(&state);
+    return state;
+}
+
+void hysteresis_state_free(hysteresis_state_t* state)
+{
+    free(state->memory);
+    *state = (hysteresis_state_t){0};
+}
+
+double hysteresis_output(const hysteresis_state_t* state)
+{
+    const outlook_t present = {state->input, state->travel, state->sum, state->correction};
+    return output_at(state, state->command, &present);
+}
+
+double hysteresis_step(hysteresis_state_t* state, double input, double step)
+{
+    const outlook_t next = look(state, input, step);
+    memcpy(state->memory, state->memory + state->model->num_plays, state->model->num_plays * sizeof(double));
+    state->sample += 1;
+    state->input = next.seen;
+    state->command = input;
+    state->travel = next.travel;
+    state->sum = next.sum;
+    state->correction = next.correction;
+    return output_at(state, input, &next);
+}
+
+static double look_output(const hysteresis_state_t* state, double v, double step)
+{
+    const outlook_t next = look(state, v, step);
+    return output_at(state, v, &next);
+}
+
+double hysteresis_inverse(const hysteresis_state_t* state, double wanted, double step, bool* clamped)
+{
+    const model_t* model = state->model;
+    double near = fmin(fmax(state->command, model->input_min), model->input_max);
+    const double present = look_output(state, near, step);
+    *clamped = false;
+    if (!(wanted > present) && !(wanted < present)) {
+        return near;
+    }
+    const bool rising = wanted > present;
+    double far = rising ? model->input_max : model->input_min;
+    const double reach = look_output(state, far, step);
+    // An end of the reachable outputs that was written with 15 digits and read back is still reachable.
+    const double rounding = 1e-14 * fmax(fabs(reach), fabs(present));
+    if (rising ? wanted >= reach : wanted <= reach) {
+        *clamped = fabs(wanted - reach) > rounding;
+        return far;
+    }
+    // 200 halvings reach below the last bit of the interval even where it contains 0.
+    for (int i = 0; i < 200; ++i) {
+        const double middle = near + 0.5 * (far - near);
+        if (!(rising ? middle > near && middle < far : middle < near && middle > far)) {
+            break;
+        }
+        const double output = look_output(state, middle, step);
+        if (rising ? output >= wanted : output <= wanted) {
+            far = middle;
+        } else {
+            near = middle;
+        }
+    }
+    return far;
+}
+
+bool hysteresis_keeps_plays(const hysteresis_t* hysteresis)
+{
+    return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) && !differs(hysteresis->moving) &&
+           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+}
+
+void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
+                          const double* sum, size_t num_samples, double* nonhysteretic)
+{
+    hysteresis_state_t state = {.model = model, .hysteresis = hysteresis};
+    set_sum_range(&state);
+    double travel = 0.0;
+    double correction = 0.0;
+    for (size_t i = 0; i < num_samples; ++i) {
+        if (i > 0) {
+            const double move = fabs(input[i] - input[i - 1]);
+            correction +=
+                (increment_factor(&state, 0.5 * (input[i] + input[i - 1]), travel + 0.5 * move) - 1.0) *
+                (sum[i] - sum[i - 1]);
+            travel += move;
+        }
+        nonhysteretic[i] += sum[i] + correction +
+                            (amplitude_factor(&state, input[i], travel) - 1.0) * (sum[i] - state.sum_middle);
+    }
+}
+
+void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hysteresis, const double* time,
+                    const double* input, size_t num_samples, double* output)
+{
+    if (num_samples == 0) {
+        return;
+    }
+    if (hysteresis_is_neutral(hysteresis)) {
+        reference_run(model, start, input, num_samples, output);
+        return;
+    }
+    hysteresis_state_t state = hysteresis_start(model, start, hysteresis, input[0]);
+    output[0] = hysteresis_output(&state);
+    for (size_t i = 1; i < num_samples; ++i) {
+        output[i] = hysteresis_step(&state, input[i], time[i] - time[i - 1]);
+    }
+    hysteresis_state_free(&state);
+}

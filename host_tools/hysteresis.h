@@ -1,0 +1,63 @@
+/// The plays' run with the effects that live inside the hysteresis. With all members at their neutral values
+/// it gives reference_run's output to rounding.
+#ifndef HYST_HOST_HYSTERESIS_H
+#define HYST_HOST_HYSTERESIS_H
+
+#include "model.h"
+
+/// What effects set; hysteresis_neutral() does nothing.
+typedef struct {
+    double play_lag; ///< [s] every play follows where the rate-independent rule would put it with this time
+                     ///< constant
+    double widening; ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
+    double
+        level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range
+    double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
+    double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
+    double wear;   ///< the plays' sum moves exp(-wear * travel / input_span) as far
+    double fade;   ///< the plays' sum, about its middle, scales by exp(-fade * travel / input_span)
+    double* width; ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
+    const double*
+        start_fraction; ///< [num_nodes] initial_state: where a play begins, node by node over the radii,
+                        ///< between its strip's bottom (-1), the run's own start (0) and its top (1); or NULL
+    size_t num_nodes;
+} hysteresis_t;
+
+hysteresis_t hysteresis_neutral(void);
+bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
+void hysteresis_free(hysteresis_t* hysteresis);
+/// Whether the plays themselves run as in the plain model and only what becomes of their sum differs.
+bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
+/// The output of such a run whose plays' sums are known: sum[num_samples], nonhysteretic[num_samples],
+/// overwritten with the output.
+void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
+                          const double* sum, size_t num_samples, double* nonhysteretic);
+/// output[num_samples] for input[num_samples] at time[num_samples] (seconds, increasing).
+void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hysteresis, const double* time,
+                    const double* input, size_t num_samples, double* output);
+
+/// Sample by sample.
+typedef struct {
+    const model_t* model;
+    const hysteresis_t* hysteresis;
+    double* memory; ///< [2 num_plays] the states, then scratch
+    size_t sample;  ///< the present sample's index
+    double input;   ///< what the plays see
+    double travel;
+    double command;              ///< the input before `moving`
+    double sum;                  ///< of weight * state
+    double sum_middle, sum_half; ///< of what it spans between the saturations
+    double correction;           ///< what increments scaled by level_gain and wear have added so far
+} hysteresis_state_t;
+/// At the first sample, with the input first_input.
+hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
+                                    double first_input);
+void hysteresis_state_free(hysteresis_state_t* state);
+double hysteresis_output(const hysteresis_state_t* state);
+/// The next sample, `step` seconds on; the output there.
+double hysteresis_step(hysteresis_state_t* state, double input, double step);
+/// The input within the model's range whose next sample gives `wanted`, nearest end where none does (then
+/// *clamped). Looks, does not commit. Not for widening.
+double hysteresis_inverse(const hysteresis_state_t* state, double wanted, double step, bool* clamped);
+
+#endif

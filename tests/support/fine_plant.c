@@ -1,0 +1,303 @@
+#include "fine_plant.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PLAYS = 8, LAGS = 6, NODES = 6, UNKNOWNS = NODES + 2 };
+
+typedef struct {
+    const char* name;
+    const char* mechanism;
+    const double* p;
+    const model_t* model;
+    double dt;
+    double duration;
+    double command; ///< the last step's
+    double drive;
+    double history[600]; ///< the delay's line
+    size_t steps;
+    double w[PLAYS];
+    double sum, scaled, travel;
+    double middle, half;
+    double lag[LAGS];
+    double place, speed;
+    double spline[UNKNOWNS];
+    bool started;
+} plant_t;
+
+static bool is(const plant_t* plant, const char* name)
+{
+    return strcmp(plant->name, name) == 0;
+}
+
+static bool by(const plant_t* plant, const char* name, const char* mechanism)
+{
+    return is(plant, name) && strcmp(plant->mechanism, mechanism) == 0;
+}
+
+static double clamp(double value, double low, double high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+static double drive(plant_t* plant, double u)
+{
+    const size_t length = sizeof plant->history / sizeof plant->history[0];
+    if (!plant->started) {
+        plant->drive = u;
+        for (size_t i = 0; i < length; ++i) {
+            plant->history[i] = u;
+        }
+    }
+    plant->history[plant->steps % length] = u;
+    if (is(plant, "delay")) {
+        const size_t late = (size_t)lround(plant->p[0] / plant->dt);
+        return plant->history[(plant->steps + length - late) % length];
+    }
+    if (is(plant, "input_lag")) {
+        plant->drive += plant->dt / plant->p[0] * (u - plant->drive);
+        return plant->drive;
+    }
+    if (is(plant, "slew_limit")) {
+        const double reach = plant->p[0] * plant->dt;
+        plant->drive += clamp(u - plant->drive, -reach, reach);
+        return plant->drive;
+    }
+    return u;
+}
+
+static void start_plays(plant_t* plant, double v)
+{
+    const model_t* model = plant->model;
+    const double bottom = tanh(model->descending.slope * model->input_min + model->descending.shift);
+    const double top = tanh(model->ascending.slope * model->input_max + model->ascending.shift);
+    for (size_t j = 0; j < PLAYS; ++j) {
+        const double r = model->radius[j];
+        const double low = tanh(model->ascending.slope * v + model->ascending.shift) - r;
+        const double high = tanh(model->descending.slope * v + model->descending.shift) + r;
+        plant->w[j] = fmax(bottom + r, low);
+        if (is(plant, "initial_state")) {
+            const double place =
+                (r - model->radius[0]) / (model->radius[PLAYS - 1] - model->radius[0]) * (NODES - 1);
+            const size_t node = place < NODES - 1 ? (size_t)place : NODES - 2;
+            const double part = place - (double)node;
+            plant->w[j] += ((1 - part) * plant->p[node] + part * plant->p[node + 1]) * (high - plant->w[j]);
+        }
+        plant->middle += model->weight[j] * (bottom + top) / 2;
+        plant->half += model->weight[j] * ((top - bottom) / 2 - r);
+        plant->sum += model->weight[j] * plant->w[j];
+    }
+    plant->scaled = plant->sum;
+    plant->command = v;
+}
+
+static void move_play(const plant_t* plant, double* w, double low, double high)
+{
+    if (by(plant, "rate_dependence", "play_lag")) {
+        *w += plant->dt / plant->p[0] * (clamp(*w, low, high) - *w);
+    } else {
+        *w = clamp(*w, low, high);
+    }
+}
+
+/// The plays' weighted sum as the effects inside the hysteresis leave it.
+static double plays(plant_t* plant, double command, double temperature)
+{
+    const model_t* model = plant->model;
+    const double half_range = (model->input_max - model->input_min) / 2;
+    double v = command;
+    double extra = is(plant, "exogenous") ? plant->p[2] * temperature : 0;
+    if (by(plant, "noncongruency", "moving")) {
+        v += plant->p[0] * half_range * (plant->sum - plant->middle) / plant->half;
+    }
+    if (by(plant, "rate_dependence", "widening")) {
+        extra += plant->p[0] * fabs(command - plant->command) / plant->dt;
+    }
+    const double before = plant->sum;
+    plant->sum = 0;
+    for (size_t j = 0; j < PLAYS; ++j) {
+        const double r = model->radius[j] + extra;
+        move_play(plant, &plant->w[j], tanh(model->ascending.slope * v + model->ascending.shift) - r,
+                  tanh(model->descending.slope * v + model->descending.shift) + r);
+        plant->sum += model->weight[j] * plant->w[j];
+    }
+    plant->travel += fabs(command - plant->command);
+    plant->command = command;
+    const double level = command / half_range;
+    const double faded = exp(-plant->p[0] * plant->travel / (2 * half_range));
+    const double moved = plant->sum - before;
+    if (by(plant, "noncongruency", "increment")) {
+        plant->scaled += (1 + plant->p[0] * level) * moved;
+    } else if (by(plant, "wear", "increment")) {
+        plant->scaled += faded * moved;
+    } else if (by(plant, "noncongruency", "product")) {
+        plant->scaled = plant->middle + (1 + plant->p[0] * level) * (plant->sum - plant->middle);
+    } else if (by(plant, "wear", "amplitude")) {
+        plant->scaled = plant->middle + faded * (plant->sum - plant->middle);
+    } else {
+        plant->scaled = plant->sum;
+    }
+    return plant->scaled;
+}
+
+static double body(plant_t* plant, double y, double temperature)
+{
+    if (!plant->started) {
+        plant->place = y;
+        for (size_t k = 0; k < LAGS; ++k) {
+            plant->lag[k] = y;
+        }
+    }
+    const double* p = plant->p;
+    if (is(plant, "gain_offset")) {
+        return p[0] * y + p[1];
+    }
+    if (is(plant, "exogenous")) {
+        return y * (1 + p[0] * temperature) + p[1] * temperature;
+    }
+    if (!is(plant, "creep")) {
+        return y;
+    }
+    double mean = 0;
+    for (size_t k = 0; k < LAGS; ++k) {
+        const double tau = exp(log(p[1]) + (log(p[2]) - log(p[1])) * (double)k / (LAGS - 1));
+        plant->lag[k] += plant->dt / tau * (y - plant->lag[k]);
+        mean += plant->lag[k] / LAGS;
+    }
+    return by(plant, "creep", "delayed") ? y + p[0] * (mean - y) : y + p[0] * (mean - plant->place);
+}
+
+/// The natural spline through 0 and the nodes at 1 ... 6 as b x + sum c_k max(x - k, 0)^3: the nodes, and no
+/// curvature beyond the last. Gauss-Jordan with pivots.
+static void fit_spline(const double* node, double* unknown)
+{
+    double a[UNKNOWNS][UNKNOWNS + 1] = {{0}};
+    for (size_t row = 0; row < UNKNOWNS; ++row) {
+        for (size_t k = 0; k <= NODES; ++k) {
+            const double x = fmax((double)row + 1 - (double)k, 0);
+            a[row][k + 1] = row < NODES ? x * x * x : row == NODES ? 1 : (double)k;
+        }
+        a[row][0] = row < NODES ? (double)row + 1 : 0;
+        a[row][UNKNOWNS] = row < NODES ? node[row] : 0;
+    }
+    for (size_t column = 0; column < UNKNOWNS; ++column) {
+        size_t best = column;
+        for (size_t row = column; row < UNKNOWNS; ++row) {
+            best = fabs(a[row][column]) > fabs(a[best][column]) ? row : best;
+        }
+        for (size_t k = 0; k <= UNKNOWNS; ++k) {
+            const double swapped = a[column][k];
+            a[column][k] = a[best][k];
+            a[best][k] = swapped;
+        }
+        for (size_t row = 0; row < UNKNOWNS; ++row) {
+            const double factor = row != column ? a[row][column] / a[column][column] : 0;
+            for (size_t k = column; k <= UNKNOWNS; ++k) {
+                a[row][k] -= factor * a[column][k];
+            }
+        }
+    }
+    for (size_t k = 0; k < UNKNOWNS; ++k) {
+        unknown[k] = a[k][UNKNOWNS] / a[k][k];
+    }
+}
+
+static double drift(plant_t* plant, double time)
+{
+    const double x = NODES * time / plant->duration;
+    if (by(plant, "drift", "linear")) {
+        return plant->p[0] * time;
+    }
+    if (!plant->started) {
+        fit_spline(plant->p, plant->spline);
+    }
+    double value = plant->spline[0] * x;
+    for (size_t k = 0; k <= NODES; ++k) {
+        value += plant->spline[k + 1] * pow(fmax(x - (double)k, 0), 3);
+    }
+    return value;
+}
+
+static double curved(const plant_t* plant, double y)
+{
+    const model_t* model = plant->model;
+    const double low = model->nonhysteretic.slope * model->input_min + model->nonhysteretic.shift +
+                       plant->middle - plant->half;
+    const double high = model->nonhysteretic.slope * model->input_max + model->nonhysteretic.shift +
+                        plant->middle + plant->half;
+    const double z = (2 * y - low - high) / (high - low);
+    return y + (high - low) / 2 * (plant->p[0] * z * z + plant->p[1] * z * z * z);
+}
+
+static double sensor(plant_t* plant, double y, double time)
+{
+    const double* p = plant->p;
+    if (is(plant, "output_lag")) {
+        plant->place += plant->dt / p[0] * (y - plant->place);
+        return plant->place;
+    }
+    if (is(plant, "resonance")) {
+        const double w = 2 * acos(-1.0) * p[0];
+        plant->speed += plant->dt * (w * w * (y - plant->place) - 2 * p[1] * w * plant->speed);
+        plant->place += plant->dt * plant->speed;
+        return plant->place;
+    }
+    if (is(plant, "backlash")) {
+        plant->place = clamp(plant->place, y - p[0] / 2, y + p[0] / 2);
+        return plant->place;
+    }
+    if (is(plant, "output_saturation")) {
+        return clamp(y, p[0], p[1]);
+    }
+    if (is(plant, "output_nonlinearity")) {
+        return curved(plant, y);
+    }
+    if (is(plant, "drift")) {
+        return y + drift(plant, time);
+    }
+    if (is(plant, "periodic_disturbance")) {
+        const double angle = 2 * acos(-1.0) * p[0] * time;
+        return y + p[1] * sin(angle) + p[2] * cos(angle);
+    }
+    if (is(plant, "quantization")) {
+        return p[1] + p[0] * floor((y - p[1]) / p[0] + 0.5);
+    }
+    return y;
+}
+
+static double step(plant_t* plant, double u, double temperature, double time)
+{
+    const double v = drive(plant, u);
+    if (!plant->started) {
+        start_plays(plant, v);
+    }
+    const double sum = plays(plant, v, temperature);
+    const double y = body(
+        plant, plant->model->nonhysteretic.slope * v + plant->model->nonhysteretic.shift + sum, temperature);
+    const double output = sensor(plant, y, time);
+    plant->started = true;
+    plant->steps += 1;
+    return output;
+}
+
+void fine_plant(const effect_case_t* of, const model_t* model, const record_t* record, double* output)
+{
+    plant_t* plant = xcalloc(1, sizeof *plant);
+    *plant = (plant_t){.name = of->name,
+                       .mechanism = of->mechanism != NULL ? of->mechanism : "",
+                       .p = of->parameter,
+                       .model = model,
+                       .duration = record->time[record->num_samples - 1]};
+    const double* temperature = record->auxiliary[0].value;
+    plant->dt = (record->time[1] - record->time[0]) / FINE_STEPS;
+    output[0] = step(plant, record->input[0], 0, 0);
+    for (size_t i = 1; i < record->num_samples; ++i) {
+        for (size_t k = 1; k <= FINE_STEPS; ++k) {
+            const double part = (double)k / FINE_STEPS;
+            output[i] = step(plant, (1 - part) * record->input[i - 1] + part * record->input[i],
+                             (1 - part) * temperature[i - 1] + part * temperature[i] - temperature[0],
+                             (1 - part) * record->time[i - 1] + part * record->time[i]);
+        }
+    }
+    free(plant);
+}

@@ -1,0 +1,199 @@
+#include "diagnose.h"
+#include "random.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum { SAMPLES = 3000, PLAYS = 8, FINE = 20 };
+
+static double time_of[SAMPLES];
+static double input[SAMPLES];
+static double output[SAMPLES];
+static double column_value[SAMPLES];
+static model_t model;
+static diagnosis_t diagnosis;
+static const double noise = 0.01;
+
+/// Classical PI over 0 ... 10; the plant below runs it with code of its own, on a grid FINE times as dense.
+void setUp(void)
+{
+    model = model_new("plant");
+    model.input_min = 0;
+    model.input_max = 10;
+    curve_free(&model.nonhysteretic);
+    model.nonhysteretic = curve_linear(0.5, 1);
+    model_set_num_plays(&model, PLAYS);
+    for (size_t j = 0; j < PLAYS; j++) {
+        model.radius[j] = 0.5 * (double)(j + 1);
+        model.weight[j] = 0.3 / (double)(j + 1);
+    }
+    diagnosis = (diagnosis_t){0};
+}
+
+void tearDown(void)
+{
+    diagnosis_free(&diagnosis);
+    model_free(&model);
+}
+
+/// Ramps between random levels at random speeds, now and then a hold: 0.01 s a sample.
+static void make_input(uint64_t seed)
+{
+    random_t random = random_new(seed);
+    double v = 0;
+    double target = 10;
+    double speed = 20;
+    size_t hold = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        time_of[t] = 0.01 * (double)t;
+        input[t] = v;
+        column_value[t] = 20 + 3 * sin(2.3e-3 * (double)t);
+        if (hold > 0) {
+            hold--;
+            continue;
+        }
+        const double step = speed * 0.01;
+        v = fabs(target - v) <= step ? target : v + (target > v ? step : -step);
+        if (fabs(target - v) <= 0) {
+            target = random_uniform(&random, 0, 10);
+            speed = exp(random_uniform(&random, log(5), log(80)));
+            hold = random_below(&random, 4) == 0 ? 60 : 0;
+        }
+    }
+}
+
+/// The plant's plays between two samples, FINE steps; lag: dz/dt = (y - z) / tau by small Euler steps.
+static void run_plant(double lag, double gain_per_degree)
+{
+    random_t random = random_new(77);
+    double w[PLAYS];
+    double z = 0;
+    for (size_t j = 0; j < PLAYS; j++) {
+        w[j] = model.radius[j]; // a descent to 0
+    }
+    for (size_t t = 0; t < SAMPLES; t++) {
+        double y = 0;
+        for (int k = 1; k <= FINE; k++) {
+            const double part = (double)k / FINE;
+            const double v = t > 0 ? input[t - 1] + part * (input[t] - input[t - 1]) : input[0];
+            y = 1 + 0.5 * v;
+            for (size_t j = 0; j < PLAYS; j++) {
+                w[j] = fmin(fmax(w[j], v - model.radius[j]), v + model.radius[j]);
+                y += model.weight[j] * w[j];
+            }
+            z = t == 0 ? y : z + (lag > 0 ? 0.01 / FINE / lag * (y - z) : y - z);
+        }
+        output[t] = z * (1 + gain_per_degree * (column_value[t] - 20)) + noise * random_normal(&random);
+    }
+}
+
+static void run_diagnosis(void)
+{
+    column_t column = {"temperature", column_value};
+    const record_t record = {.path = "made.csv",
+                             .num_samples = SAMPLES,
+                             .time = time_of,
+                             .input = input,
+                             .output = output,
+                             .num_auxiliary = 1,
+                             .auxiliary = &column};
+    const diagnose_options_t options = {.calibration_rmse = noise, .calibration_noise = noise};
+    TEST_ASSERT_EQUAL(OUTCOME_OK, diagnose(&model, &record, &options, &diagnosis));
+}
+
+static const effect_use_t* only_effect(void)
+{
+    TEST_ASSERT_FALSE(diagnosis.is_unknown);
+    TEST_ASSERT_EQUAL(1, diagnosis.cause[0].hypothesis->num_uses);
+    return &diagnosis.cause[0].hypothesis->use[0];
+}
+
+static void test_noise_alone_is_no_cause(void)
+{
+    make_input(1);
+    run_plant(0, 0);
+    run_diagnosis();
+    TEST_ASSERT_TRUE(diagnosis.is_none);
+    // Second differences of 3000 samples give the noise to some 3 %; the fine grid's plays are exact.
+    TEST_ASSERT_DOUBLE_WITHIN(0.1 * noise, noise, diagnosis.rmse);
+}
+
+static void test_output_lag_is_named_and_sized(void)
+{
+    make_input(2);
+    run_plant(0.05, 0);
+    run_diagnosis();
+    const effect_use_t* use = only_effect();
+    TEST_ASSERT_EQUAL_STRING("output_lag", use->effect->name);
+    // Euler's steps of 0.5 ms shift the time constant by half a step, 0.5 %; noise adds less.
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.05, use->parameter[0]);
+    TEST_ASSERT_TRUE(diagnosis.confident);
+    TEST_ASSERT_TRUE(diagnosis.cause[0].shrink_low <= diagnosis.cause[0].shrink);
+    TEST_ASSERT_TRUE(diagnosis.cause[0].shrink <= diagnosis.cause[0].shrink_high);
+    // What is left is the noise.
+    TEST_ASSERT_TRUE(diagnosis.cause[0].rmse_after < 1.2 * noise);
+}
+
+static void test_column_is_named(void)
+{
+    make_input(3);
+    run_plant(0, 0.02);
+    run_diagnosis();
+    const effect_use_t* use = only_effect();
+    TEST_ASSERT_EQUAL_STRING("exogenous", use->effect->name);
+    TEST_ASSERT_EQUAL_STRING("temperature", use->column);
+}
+
+static void test_two_effects_are_both_named(void)
+{
+    make_input(4);
+    run_plant(0.05, 0.02);
+    run_diagnosis();
+    TEST_ASSERT_FALSE(diagnosis.is_unknown);
+    TEST_ASSERT_EQUAL(2, diagnosis.cause[0].hypothesis->num_uses);
+    TEST_ASSERT_TRUE(diagnosis.cause[0].rmse_after < 1.3 * noise);
+}
+
+/// Knocks on the sensor belong to no entry of the catalogue.
+static void test_stranger_is_unknown(void)
+{
+    make_input(5);
+    run_plant(0, 0);
+    for (size_t t = 1200; t < 1500; t++) {
+        output[t] += 2 * sin(0.001 * (double)((t - 1200) * (t - 1200)));
+    }
+    run_diagnosis();
+    TEST_ASSERT_TRUE(diagnosis.is_unknown);
+    TEST_ASSERT_EQUAL(AXIS_TIME, diagnosis.region[0].axis);
+    TEST_ASSERT_DOUBLE_WITHIN(0.5, 12, diagnosis.region[0].from);
+    TEST_ASSERT_DOUBLE_WITHIN(0.5, 15, diagnosis.region[0].to);
+}
+
+static void test_records_without_excitation_are_refused(void)
+{
+    make_input(6);
+    run_plant(0, 0);
+    record_t record = {
+        .path = "made.csv", .num_samples = 100, .time = time_of, .input = input, .output = output};
+    const diagnose_options_t options = {0};
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, diagnose(&model, &record, &options, &diagnosis));
+    record.num_samples = SAMPLES;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        input[t] = 5;
+    }
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, diagnose(&model, &record, &options, &diagnosis));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_noise_alone_is_no_cause);
+    RUN_TEST(test_output_lag_is_named_and_sized);
+    RUN_TEST(test_column_is_named);
+    RUN_TEST(test_two_effects_are_both_named);
+    RUN_TEST(test_stranger_is_unknown);
+    RUN_TEST(test_records_without_excitation_are_refused);
+    return UNITY_END();
+}

@@ -1,0 +1,277 @@
+#include "diagnose_budget.h"
+#include "effect_catalogue.h"
+#include "random.h"
+#include "reference.h"
+#include "tabulate.h"
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+
+enum { SAMPLES = 2000, PLAYS = 9 };
+
+static model_t full;
+static model_t compressed;
+static double time_of[SAMPLES];
+static double input[SAMPLES];
+static double measured[SAMPLES];
+static effect_run_t run;
+static record_t record;
+static const double noise = 0.02;
+static const double rounding = 1e-9; // of sums of SAMPLES doubles of size 1, with 5 digits to spare
+
+static void tanh_envelopes(model_t* model)
+{
+    model->input_max = 10;
+    curve_free(&model->ascending);
+    curve_free(&model->descending);
+    model->ascending = curve_tanh(0.4, -2.2);
+    model->descending = curve_tanh(0.4, -1.8);
+}
+
+/// Inputs that float holds exactly, so that lib/'s error bounds apply.
+static void make_input(double largest)
+{
+    for (size_t t = 0; t < SAMPLES; t++) {
+        time_of[t] = 0.01 * (double)t;
+        const double swing = 0.5 + 0.5 * sin(0.31 * (double)t / 20);
+        input[t] = (double)(float)(largest * swing * (0.5 - 0.5 * cos(2.1 * (double)t / 50)));
+    }
+}
+
+void setUp(void)
+{
+    full = model_new("full");
+    tanh_envelopes(&full);
+    model_set_num_plays(&full, PLAYS);
+    for (size_t j = 0; j < PLAYS; j++) {
+        full.radius[j] = 0.1 * (double)(j + 1);
+        full.weight[j] = 0.5 / (double)(j + 1);
+    }
+    compressed = model_new("compressed");
+    tanh_envelopes(&compressed);
+    model_set_num_plays(&compressed, 2);
+    compressed.radius[0] = 0.15;
+    compressed.radius[1] = 0.5;
+    compressed.weight[0] = 0.8;
+    compressed.weight[1] = 0.6;
+    make_input(10);
+    record = (record_t){
+        .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = measured};
+    run = effect_run_new(&full, &record);
+}
+
+void tearDown(void)
+{
+    effect_run_free(&run);
+    model_free(&full);
+    model_free(&compressed);
+}
+
+static hypothesis_t a_lag(void)
+{
+    const effect_use_t use = {.effect = &effect_output_lag, .parameter = {0.05}};
+    return hypothesis_of(&use, 1);
+}
+
+/// The plant: the full model behind a lag, with noise; returns the noise's own RMS.
+static double measure(const hypothesis_t* plant, double sigma)
+{
+    effect_simulate(&run, &full, START_NEGATIVE_SATURATION, plant->use, plant->num_uses, measured);
+    random_t random = random_new(5);
+    double sum = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        const double e = sigma * random_normal(&random);
+        measured[t] += e;
+        sum += e * e;
+    }
+    return sqrt(sum / SAMPLES);
+}
+
+static budget_chain_t chain_with(const hypothesis_t* verdict)
+{
+    return (budget_chain_t){.full = &full,
+                            .compressed = &compressed,
+                            .compressed_path = "compressed.json",
+                            .start = START_NEGATIVE_SATURATION,
+                            .verdict = verdict,
+                            .noise = noise};
+}
+
+static budget_t budget_of(const budget_chain_t* chain)
+{
+    budget_t budget;
+    TEST_ASSERT_EQUAL(OUTCOME_OK, budget_find(chain, &run, measured, &budget));
+    return budget;
+}
+
+static double part(const budget_t* budget, budget_part_t wanted)
+{
+    for (size_t i = 0; i < BUDGET_PARTS; i++) {
+        if (budget->entry[i].part == wanted) {
+            return budget->entry[i].rmse;
+        }
+    }
+    TEST_FAIL_MESSAGE("the budget leaves a part out");
+    return (double)NAN;
+}
+
+static double rms_difference(const double* a, const double* b)
+{
+    double sum = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        sum += (a[t] - b[t]) * (a[t] - b[t]);
+    }
+    return sqrt(sum / SAMPLES);
+}
+
+static void test_each_part_is_its_own_step(void)
+{
+    static double of_full[SAMPLES];
+    static double of_compressed[SAMPLES];
+    static double lagged[SAMPLES];
+    const hypothesis_t lag = a_lag();
+    const double own_noise = measure(&lag, noise);
+    const budget_chain_t chain = chain_with(&lag);
+    const budget_t budget = budget_of(&chain);
+    reference_run(&full, START_NEGATIVE_SATURATION, input, SAMPLES, of_full);
+    reference_run(&compressed, START_NEGATIVE_SATURATION, input, SAMPLES, of_compressed);
+    effect_simulate(&run, &full, START_NEGATIVE_SATURATION, lag.use, 1, lagged);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, rms_difference(of_full, lagged), part(&budget, BUDGET_UNMODELLED));
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, rms_difference(of_full, of_compressed),
+                              part(&budget, BUDGET_COMPRESSION));
+    // What the lag leaves is the noise drawn, of which no more than the stated noise counts as such.
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, fmin(noise, own_noise), part(&budget, BUDGET_NOISE));
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, fmax(own_noise * own_noise - noise * noise, 0),
+                              pow(part(&budget, BUDGET_UNEXPLAINED), 2));
+    TEST_ASSERT_EQUAL_DOUBLE(0, part(&budget, BUDGET_CLAMPING));
+    TEST_ASSERT_EQUAL_DOUBLE(0, part(&budget, BUDGET_IDENTIFICATION));
+}
+
+static void test_table_and_rounding_keep_their_bounds(void)
+{
+    const hypothesis_t lag = a_lag();
+    measure(&lag, noise);
+    const budget_chain_t chain = chain_with(&lag);
+    const budget_t budget = budget_of(&chain);
+    tabulated_t tabulated;
+    TEST_ASSERT_NULL(tabulate(&compressed, tabulate_default_error(&compressed), &tabulated));
+    // tabulate.h bounds every sample's error, hence its RMS.
+    TEST_ASSERT_TRUE(part(&budget, BUDGET_TABLE) > 0);
+    TEST_ASSERT_TRUE(part(&budget, BUDGET_TABLE) <= tabulated.table_error);
+    TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) > 0);
+    TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) <= tabulated.float_error);
+    tabulated_free(&tabulated);
+}
+
+static double firmware_rmse(void)
+{
+    tabulated_t tabulated;
+    TEST_ASSERT_NULL(tabulate(&compressed, tabulate_default_error(&compressed), &tabulated));
+    hyst_f32_segment_t memory[2];
+    hyst_f32_state_t state;
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, hyst_f32_init(&tabulated.model, &state, memory, 2));
+    double sum = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        const double error = (double)hyst_f32_step(&tabulated.model, &state, (float)input[t]) - measured[t];
+        sum += error * error;
+    }
+    tabulated_free(&tabulated);
+    return sqrt(sum / SAMPLES);
+}
+
+static void test_parts_add_up_to_the_firmware_within_the_cross_terms(void)
+{
+    const hypothesis_t lag = a_lag();
+    measure(&lag, noise);
+    const budget_chain_t chain = chain_with(&lag);
+    const budget_t budget = budget_of(&chain);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, firmware_rmse(), budget.total);
+    double squares = 0;
+    double roots = 0;
+    double rest = 0;
+    for (size_t i = 0; i < BUDGET_PARTS; i++) {
+        const budget_entry_t* entry = &budget.entry[i];
+        TEST_ASSERT_DOUBLE_WITHIN(rounding, entry->share, pow(entry->rmse / budget.total, 2));
+        TEST_ASSERT_TRUE(i == 0 || entry->share <= budget.entry[i - 1].share);
+        squares += entry->rmse * entry->rmse;
+        const bool is_rest = entry->part == BUDGET_NOISE || entry->part == BUDGET_IDENTIFICATION ||
+                             entry->part == BUDGET_UNEXPLAINED;
+        rest += is_rest ? entry->rmse * entry->rmse : 0;
+        roots += is_rest ? 0 : entry->rmse;
+    }
+    roots += sqrt(rest);
+    const double total = budget.total * budget.total;
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, total, squares + budget.cross_share * total);
+    // Cauchy-Schwarz: the steps' products are at most the products of their RMS; noise, misfit and the
+    // unexplained are one step.
+    TEST_ASSERT_TRUE(fabs(total - squares) <= roots * roots - squares + rounding);
+}
+
+static void test_a_chain_without_a_step_has_nothing_there(void)
+{
+    const hypothesis_t none = hypothesis_of(NULL, 0);
+    measure(&none, noise);
+    budget_chain_t chain = chain_with(NULL);
+    chain.compressed = &full;
+    const budget_t budget = budget_of(&chain);
+    TEST_ASSERT_EQUAL_DOUBLE(0, part(&budget, BUDGET_COMPRESSION));
+    // The plays of a run with effects are the reference's own, up to rounding.
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, 0, part(&budget, BUDGET_UNMODELLED));
+    TEST_ASSERT_EQUAL(BUDGET_NOISE, budget.entry[0].part);
+}
+
+static void test_known_misfit_is_identification(void)
+{
+    const hypothesis_t lag = a_lag();
+    const double own = measure(&lag, 3 * noise);
+    budget_chain_t chain = chain_with(&lag);
+    chain.misfit = 2 * noise;
+    const budget_t budget = budget_of(&chain);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, sqrt(3) * noise, part(&budget, BUDGET_IDENTIFICATION));
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, sqrt(own * own - 4 * noise * noise),
+                              part(&budget, BUDGET_UNEXPLAINED));
+}
+
+static void test_inputs_beyond_the_range_are_clamped(void)
+{
+    effect_run_free(&run);
+    make_input(12);
+    run = effect_run_new(&full, &record);
+    const hypothesis_t lag = a_lag();
+    measure(&lag, noise);
+    static double beyond[SAMPLES];
+    static double within[SAMPLES];
+    static double clamped[SAMPLES];
+    for (size_t t = 0; t < SAMPLES; t++) {
+        clamped[t] = fmin(input[t], 10);
+    }
+    reference_run(&compressed, START_NEGATIVE_SATURATION, input, SAMPLES, beyond);
+    reference_run(&compressed, START_NEGATIVE_SATURATION, clamped, SAMPLES, within);
+    const budget_chain_t chain = chain_with(&lag);
+    const budget_t budget = budget_of(&chain);
+    TEST_ASSERT_TRUE(rms_difference(beyond, within) > 0);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, rms_difference(beyond, within), part(&budget, BUDGET_CLAMPING));
+}
+
+static void test_a_model_that_float_cannot_hold_is_refused(void)
+{
+    const hypothesis_t lag = a_lag();
+    measure(&lag, noise);
+    compressed.weight[0] = 1e39;
+    const budget_chain_t chain = chain_with(&lag);
+    budget_t budget;
+    TEST_ASSERT_EQUAL(OUTCOME_NUMERICAL, budget_find(&chain, &run, measured, &budget));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_each_part_is_its_own_step);
+    RUN_TEST(test_table_and_rounding_keep_their_bounds);
+    RUN_TEST(test_parts_add_up_to_the_firmware_within_the_cross_terms);
+    RUN_TEST(test_a_chain_without_a_step_has_nothing_there);
+    RUN_TEST(test_known_misfit_is_identification);
+    RUN_TEST(test_inputs_beyond_the_range_are_clamped);
+    RUN_TEST(test_a_model_that_float_cannot_hold_is_refused);
+    return UNITY_END();
+}

@@ -1,0 +1,323 @@
+#include "effect.h"
+#include "effect_cases.h"
+#include "effect_invert.h"
+#include "hysteresis.h"
+#include "random_model.h"
+#include "reference.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+static model_t model;
+static record_t record;
+static effect_run_t run;
+static double* plain;
+static double* output;
+
+void setUp(void)
+{
+    model = effect_case_model();
+    record = effect_case_record(NULL, 0);
+    run = effect_run_new(&model, &record);
+    plain = xcalloc(record.num_samples, sizeof(double));
+    output = xcalloc(record.num_samples, sizeof(double));
+    reference_run(&model, START_NEGATIVE_SATURATION, record.input, record.num_samples, plain);
+}
+
+void tearDown(void)
+{
+    effect_run_free(&run);
+    record_free(&record);
+    model_free(&model);
+    free(plain);
+    free(output);
+}
+
+static double largest_difference(const double* a, const double* b, size_t count)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        TEST_ASSERT_TRUE(isfinite(a[i]));
+        TEST_ASSERT_TRUE(isfinite(b[i]));
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    }
+    return largest;
+}
+
+static void every_effect_has_its_case(void)
+{
+    TEST_ASSERT_EQUAL_UINT(effect_count(), effect_case_count());
+    for (size_t c = 0; c < effect_case_count(); ++c) {
+        TEST_ASSERT_NOT_NULL_MESSAGE(effect_case_use(effect_case_at(c)).effect, effect_case_at(c)->name);
+    }
+}
+
+/// A time constant below a fiftieth of a sample lags by at most that times the speed. A mode of 5 sample
+/// rates: at most 2 damping / w of the speed behind, and each change of speed, at most twice the speed, rings
+/// with amplitude 1/w, in sum below 1 / (1 - e^(-damping w dt)) of them; w dt = 10 pi and damping 0.7 leave
+/// no second one. Together < 5.4/(10 pi) of a sample's motion.
+static void neutral_parameters_change_nothing(void)
+{
+    const double motion = effect_case_speed(&model, &record) * run.sample_time;
+    for (size_t c = 0; c < effect_case_count(); ++c) {
+        effect_use_t use = effect_case_use(effect_case_at(c));
+        double bound = 8.0 * output_rounding(&model);
+        for (size_t p = 0; p < use.effect->num_parameters; ++p) {
+            const effect_limits_t limits = effect_use_limits(&run, &use, p);
+            use.parameter[p] = limits.neutral;
+            const bool tau = strcmp(use.effect->parameter[p].name, "tau") == 0;
+            bound += tau ? 0.02 * motion : 0.0;
+        }
+        bound += strcmp(use.effect->name, "resonance") == 0 ? 5.4 / 31.4 * motion : 0.0;
+        effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+        const double difference = largest_difference(plain, output, record.num_samples);
+        TEST_ASSERT_TRUE_MESSAGE(difference <= bound, use.effect->name);
+    }
+}
+
+/// The step-by-step hysteresis without effects, and with a width that stays 0, on models and inputs of every
+/// kind: the sum's order and the strip's other side cost rounding only.
+static void stepping_plays_is_the_reference(void)
+{
+    random_t random = random_new(20250);
+    enum { LENGTH = 300 };
+    double input[LENGTH];
+    for (int round = 0; round < 200; ++round) {
+        model_t any = random_model(&random);
+        random_input(&random, &any, input, LENGTH);
+        hysteresis_t hysteresis = hysteresis_neutral();
+        if (round % 2 == 1) {
+            hysteresis.width = xcalloc(LENGTH, sizeof(double));
+        }
+        reference_t reference = reference_new(&any, START_NEGATIVE_SATURATION, input[0]);
+        hysteresis_state_t state = hysteresis_start(&any, START_NEGATIVE_SATURATION, &hysteresis, input[0]);
+        const double bound = 4.0 * output_rounding(&any);
+        TEST_ASSERT_DOUBLE_WITHIN(bound, reference_output(&reference), hysteresis_output(&state));
+        for (size_t i = 1; i < LENGTH; ++i) {
+            const double expected = reference_step(&reference, input[i]);
+            TEST_ASSERT_DOUBLE_WITHIN(bound, expected, hysteresis_step(&state, input[i], 0.1));
+        }
+        hysteresis_state_free(&state);
+        reference_free(&reference);
+        hysteresis_free(&hysteresis);
+        model_free(&any);
+    }
+}
+
+/// The same piecewise linear input with more samples, evenly or not, against the coarse one at the coarse
+/// samples.
+static void same_at_any_sample_rate(const double* sub, size_t num_sub)
+{
+    record_t fine = effect_case_record(sub, num_sub);
+    effect_run_t fine_run = effect_run_new(&model, &fine);
+    double* fine_output = xcalloc(fine.num_samples, sizeof(double));
+    for (size_t c = 0; c < effect_case_count(); ++c) {
+        const effect_use_t use = effect_case_use(effect_case_at(c));
+        effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+        effect_simulate(&fine_run, &model, START_NEGATIVE_SATURATION, &use, 1, fine_output);
+        double largest = 0.0;
+        for (size_t i = 0; i < CASE_SAMPLES; ++i) {
+            largest = fmax(largest, fabs(output[i] - fine_output[i * (num_sub + 1)]));
+        }
+        TEST_ASSERT_TRUE_MESSAGE(largest <= effect_case_bound(effect_case_at(c), &model, &record),
+                                 use.effect->name);
+    }
+    free(fine_output);
+    effect_run_free(&fine_run);
+    record_free(&fine);
+}
+
+/// With straight envelopes everything inside a viscous play is linear between the samples, so that its exact
+/// step must give the same in one long step as in ten, time constants above and below the step alike.
+static void viscous_plays_are_exact(void)
+{
+    enum { LONG = 40, PART = 10, COUNT = LONG * PART + 1 };
+    double time[COUNT];
+    double input[COUNT];
+    double fine[COUNT];
+    random_t random = random_new(7);
+    model_t classical = random_classical_model(&random);
+    random_input(&random, &classical, fine, LONG + 1);
+    for (size_t i = 0; i < COUNT; ++i) {
+        const double part = (double)(i % PART) / PART;
+        const double to = i / PART < LONG ? fine[i / PART + 1] : 0.0;
+        time[i] = (double)i / PART;
+        input[i] = (1.0 - part) * fine[i / PART] + part * to;
+    }
+    const double taus[] = {0.05, 0.5, 5.0};
+    for (size_t k = 0; k < 3; ++k) {
+        hysteresis_t hysteresis = hysteresis_neutral();
+        hysteresis.play_lag = taus[k];
+        hysteresis_run(&classical, START_NEGATIVE_SATURATION, &hysteresis, time, input, COUNT, fine);
+        hysteresis_state_t state =
+            hysteresis_start(&classical, START_NEGATIVE_SATURATION, &hysteresis, input[0]);
+        for (size_t i = PART; i < COUNT; i += PART) {
+            // Each of the PART steps adds its own rounding.
+            TEST_ASSERT_DOUBLE_WITHIN(PART * LONG * output_rounding(&classical), fine[i],
+                                      hysteresis_step(&state, input[i], 1.0));
+        }
+        hysteresis_state_free(&state);
+    }
+    model_free(&classical);
+}
+
+/// A ramp u = t from rest, in steps below and above the time constants: the lag gives t - tau (1 -
+/// e^(-t/tau)), the mode t - 2 z/w + e^(-z w t) (2 z/w cos(q t) - (1 - 2 z^2)/q sin(q t)) with q = w sqrt(1 -
+/// z^2).
+static void ramps_are_exact_at_any_step(void)
+{
+    enum { COUNT = 12 };
+    double time[COUNT];
+    double lagged[COUNT];
+    double ringing[COUNT];
+    const effect_case_t lag = {"output_lag", NULL, {0.3}, 1.0};
+    const effect_case_t mode = {"resonance", NULL, {0.4, 0.2}, 1.0};
+    const double w = 6.283185307179586 * 0.4;
+    const double q = w * sqrt(1.0 - 0.2 * 0.2);
+    for (size_t i = 0; i < COUNT; ++i) {
+        time[i] = 0.5 * (double)i + (i % 2 == 0 ? 0.0 : 0.3);
+        lagged[i] = time[i];
+        ringing[i] = time[i];
+    }
+    const effect_run_t ramp = {.num_samples = COUNT, .time = time};
+    const effect_use_t lag_use = effect_case_use(&lag);
+    const effect_use_t mode_use = effect_case_use(&mode);
+    effect_use_apply(&ramp, &lag_use, lagged);
+    effect_use_apply(&ramp, &mode_use, ringing);
+    for (size_t i = 0; i < COUNT; ++i) {
+        const double t = time[i];
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, t - 0.3 * (1.0 - exp(-t / 0.3)), lagged[i]);
+        const double free_part = 0.4 / w * cos(q * t) - (1.0 - 0.08) / q * sin(q * t);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, t - 0.4 / w + exp(-0.2 * w * t) * free_part, ringing[i]);
+    }
+}
+
+static void three_times_the_rate_gives_the_same(void)
+{
+    same_at_any_sample_rate((const double[]){1.0 / 3.0, 2.0 / 3.0}, 2);
+}
+
+static void uneven_samples_give_the_same(void)
+{
+    same_at_any_sample_rate((const double[]){0.03, 0.4, 0.9}, 3);
+}
+
+static void json_gives_the_use_back(void)
+{
+    for (size_t c = 0; c < effect_case_count(); ++c) {
+        effect_use_t use = effect_case_use(effect_case_at(c));
+        use.has_reference = use.effect->needs_column;
+        use.reference = use.has_reference ? 21.5 : 0.0;
+        model.effects = json_pack("[o]", effect_use_to_json(&use));
+        TEST_ASSERT_NULL(effect_fault(model.effects).key);
+        effect_use_t* uses;
+        size_t num_uses;
+        TEST_ASSERT_EQUAL_INT(OUTCOME_OK, effect_uses_of_model(&model, "model.json", &uses, &num_uses));
+        TEST_ASSERT_EQUAL_UINT(1, num_uses);
+        TEST_ASSERT_EQUAL_PTR(use.effect, uses[0].effect);
+        TEST_ASSERT_EQUAL_MEMORY(use.parameter, uses[0].parameter, sizeof use.parameter);
+        TEST_ASSERT_EQUAL_STRING(use.column, uses[0].column);
+        TEST_ASSERT_EQUAL_DOUBLE(use.reference, uses[0].reference);
+        free(uses);
+        json_decref(model.effects);
+        model.effects = NULL;
+    }
+}
+
+/// Without a reference the column counts from its first value, with one from there.
+static void the_reference_shifts_the_column(void)
+{
+    effect_use_t use = effect_case_use(effect_case_at(effect_case_count() - 1));
+    use.parameter[0] = 0.0;
+    use.parameter[1] = 0.5;
+    use.parameter[2] = 0.0;
+    use.has_reference = true;
+    use.reference = 18.0;
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-14, plain[0] + 0.5 * (20.0 - 18.0), output[0]);
+}
+
+/// Uses are applied in the catalogue's order whatever order they come in: lag, then clip.
+static void order_is_the_catalogue_s(void)
+{
+    effect_use_t uses[2] = {effect_case_use(&(effect_case_t){"output_saturation", NULL, {-0.5, 0.5}, 1.0}),
+                            effect_case_use(&(effect_case_t){"output_lag", NULL, {0.5}, 1.0})};
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, uses, 2, output);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &uses[1], 1, plain);
+    for (size_t i = 0; i < record.num_samples; ++i) {
+        TEST_ASSERT_EQUAL_DOUBLE(fmax(-0.5, fmin(0.5, plain[i])), output[i]);
+    }
+}
+
+/// What the model itself gave can be asked for again: within what two right computations may differ by.
+static void inverse_gives_the_wanted_output(void)
+{
+    double* command = xcalloc(record.num_samples, sizeof(double));
+    double* clamped = xcalloc(record.num_samples, sizeof(double));
+    double* again = xcalloc(record.num_samples, sizeof(double));
+    for (size_t c = 0; c < effect_case_count(); ++c) {
+        const effect_use_t use = effect_case_use(effect_case_at(c));
+        if (use.effect->no_inverse != NULL) {
+            continue;
+        }
+        effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+        effect_invert(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output, command, clamped);
+        effect_run_t back = run;
+        back.input = command;
+        effect_simulate(&back, &model, START_NEGATIVE_SATURATION, &use, 1, again);
+        double largest = 0.0;
+        size_t num_clamped = 0;
+        for (size_t i = 0; i < record.num_samples; ++i) {
+            num_clamped += clamped[i] > 0.0 ? 1 : 0;
+            largest = fmax(largest, fabs(again[i] - output[i]));
+        }
+        char text[120];
+        (void)snprintf(text, sizeof text, "%s %s: %.3g, %zu clamped", use.effect->name,
+                       use.effect->mechanism != NULL ? use.effect->mechanism : "", largest, num_clamped);
+        TEST_ASSERT_TRUE_MESSAGE(largest <= effect_case_bound(effect_case_at(c), &model, &record), text);
+        TEST_ASSERT_EQUAL_UINT_MESSAGE(0, num_clamped, text);
+    }
+    free(command);
+    free(clamped);
+    free(again);
+}
+
+/// The limits' promises, for every effect.
+static void limits_hold_their_starts(void)
+{
+    for (size_t c = 0; c < effect_case_count(); ++c) {
+        const effect_use_t use = effect_case_use(effect_case_at(c));
+        for (size_t p = 0; p < use.effect->num_parameters; ++p) {
+            const effect_limits_t limits = effect_use_limits(&run, &use, p);
+            TEST_ASSERT_TRUE_MESSAGE(limits.low < limits.high, use.effect->name);
+            TEST_ASSERT_TRUE(limits.low >= use.effect->parameter[p].least - DBL_MIN);
+            TEST_ASSERT_TRUE(limits.high <= use.effect->parameter[p].most);
+            TEST_ASSERT_TRUE(limits.neutral >= limits.low && limits.neutral <= limits.high);
+            TEST_ASSERT_TRUE(!limits.logarithmic || limits.low > 0.0);
+            for (size_t s = 0; s < 3; ++s) {
+                TEST_ASSERT_TRUE(limits.start[s] >= limits.low && limits.start[s] <= limits.high);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(every_effect_has_its_case);
+    RUN_TEST(neutral_parameters_change_nothing);
+    RUN_TEST(stepping_plays_is_the_reference);
+    RUN_TEST(viscous_plays_are_exact);
+    RUN_TEST(ramps_are_exact_at_any_step);
+    RUN_TEST(three_times_the_rate_gives_the_same);
+    RUN_TEST(uneven_samples_give_the_same);
+    RUN_TEST(json_gives_the_use_back);
+    RUN_TEST(the_reference_shifts_the_column);
+    RUN_TEST(order_is_the_catalogue_s);
+    RUN_TEST(inverse_gives_the_wanted_output);
+    RUN_TEST(limits_hold_their_starts);
+    return UNITY_END();
+}
