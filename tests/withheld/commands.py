@@ -88,10 +88,11 @@ MIXED = {f.__name__: f for f in (ramps, sine, sweep, steps, multisine, reversals
 SINGLE = {f.__name__: f for f in (sine, staircase_hold, equal_steps, triangle)}
 
 
-def join(parts, move=24):
-    """Parts one after another, a short move between the end of one and the start of the next."""
+def join(parts, pace):
+    """Parts one after another, with moves between them at a speed of one range in 0.3 cycles."""
     out = [parts[0]]
     for part in parts[1:]:
+        move = 4 + int(0.3 * pace * abs(part[0] - out[-1][-1]))
         out.append(np.linspace(out[-1][-1], part[0], move, endpoint=False)[1:])
         out.append(part)
     return np.concatenate(out)
@@ -109,9 +110,9 @@ def mixed(rng, n, pace, kinds, calm_start=False):
         parts.insert(half, np.interp(np.arange(int(0.6 * pace)), [0, 0.15 * pace, 0.45 * pace], [0.5, 0, 1]))
     else:
         parts.insert(0, np.linspace(0.0, rng.uniform(0.2, 0.9), int(0.3 * pace)))
-    out = join(parts)
+    out = join(parts, pace)
     while len(out) < n:
-        out = join([out, MIXED[str(rng.choice(kinds))](rng, n - len(out) + 2, pace)])
+        out = join([out, MIXED[str(rng.choice(kinds))](rng, n - len(out) + 2, pace)], pace)
     return np.clip(out[:n], 0.0, 1.0)
 
 

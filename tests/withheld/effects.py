@@ -125,9 +125,10 @@ class RateDependence(Effect):
 
 
 class Noncongruency(Effect):
-    """A mean field that moves the input with the output, or a reversible part that depends on the irreversible state."""
+    """A mean field that moves the input with the remanence, or a reversible part whose stiffness depends on it. Both
+    leave the middle of the major loop alone: what changes is loops between equal reversals at other levels."""
 
-    name, stage, span = "noncongruency", "body", (0.002, 0.9)
+    name, stage, span = "noncongruency", "body", (0.002, 3.0)
 
     def draw(self, rng, plan):
         self.mechanism = str(rng.choice(["mean_field", "reversible"]))
@@ -136,12 +137,11 @@ class Noncongruency(Effect):
     def run(self, plant, v, ctx):
         plain = plant.mix(plant.hysteretic(v, ctx), plant.body.reversible(v))
         if self.mechanism == "reversible":
-            level = 2.0 * plain - 1.0
-            shaken = plant.body.reversible(v) - 0.5
-            return plain + self.strength * 0.5 * shaken * self.sign * (level - level * level * level)
+            stiffness = 2.0 * self.sign * self.strength * plant.excess(plain, v)
+            return plain + stiffness * (plant.body.reversible(v) - 0.5)
         out = plain
-        for _ in range(5):  # a fixed point; it contracts, since the feedback's loop gain stays below 1
-            x = np.clip(v + 0.3 * self.sign * self.strength * (out - v), -0.1, 1.1)
+        for _ in range(5):  # a fixed point; the feedback's loop gain stays below 1 at the cap
+            x = np.clip(v + self.sign * min(self.strength, 0.25) * plant.excess(out, v), -0.1, 1.1)
             out = plant.mix(plant.hysteretic(x, ctx), plant.body.reversible(v))
         return out
 

@@ -39,10 +39,11 @@ class Plan:
 class Plant:
     def __init__(self, rng, kind):
         self.body = kind(rng)
-        self.low, self.span = 0.0, 1.0
         loop = np.concatenate([np.linspace(1, 0, 200), np.linspace(0, 1, 400), np.linspace(1, 0, 400)])
         part = self.body.hysteretic(loop)[200:]
         self.hysteretic_low, self.hysteretic_span = part.min(), part.max() - part.min()
+        middle = 0.5 * (part[:400] + part[400:][::-1])
+        self.middle = self.mix(middle, self.body.reversible(loop[200:600]))
 
     def hysteretic(self, x, ctx, history=None):
         before = ctx.prehistory if history is None else history
@@ -52,6 +53,10 @@ class Plant:
         """Both parts, in [0, 1] over the major loop."""
         share = self.body.reversible_share
         return (1.0 - share) * (hysteretic - self.hysteretic_low) / self.hysteretic_span + share * reversible
+
+    def excess(self, out, u):
+        """How far the output lies above the middle of the major loop at this input."""
+        return out - np.interp(u, np.linspace(0, 1, 400), self.middle)
 
     def respond(self, u, ctx, effects, stages=STAGES[:-1]):
         """The noise-free output, in [0, 1] over the calibration's range, for the command u."""
