@@ -19,13 +19,18 @@ def _write_csv(path, columns):
                header=",".join(columns), comments="")
 
 
+def folders(seed_name, out, name):
+    """Where a case's records and its truth go: together for the open tuning seed, apart for the others."""
+    if seed_name == "tuning":
+        return os.path.join(out, name), os.path.join(out, name)
+    return os.path.join(out, "cases", name), os.path.join(out, "sealed", name)
+
+
 def write_case(job):
     seed_name, card, out = job
     parts, truth = Case(seed_name, card).build()
     name = "%03d" % card["index"]
-    is_open = seed_name == "tuning"
-    folder = os.path.join(out, name) if is_open else os.path.join(out, "cases", name)
-    sealed = folder if is_open else os.path.join(out, "sealed", name)
+    folder, sealed = folders(seed_name, out, name)
     os.makedirs(folder, exist_ok=True)
     os.makedirs(sealed, exist_ok=True)
     for part, (columns, effect) in parts.items():
