@@ -294,18 +294,18 @@ class Backlash(Effect):
 class OutputSaturation(Effect):
     """An amplifier that runs into one or both rails, with a knee."""
 
-    name, stage, span = "output_saturation", "sensor", (0.005, 0.75)
+    name, stage, span = "output_saturation", "sensor", (0.005, 0.9)
 
     def draw(self, rng, plan):
         self.rails = [(0, 1), (1, 0), (1, 1)][rng.integers(3)]
         self.knee = rng.uniform(0.003, 0.02)
 
     def apply(self, signal, ctx):
-        out = signal
+        out, far = signal, 8.0 * self.knee  # where the knee's own exp(-8) no longer shows
         if self.rails[1]:
-            out = out - self.knee * np.logaddexp(0.0, (out - (1.02 - self.strength)) / self.knee)
+            out = out - self.knee * np.logaddexp(0.0, (out - (1.0 + far - self.strength)) / self.knee)
         if self.rails[0]:
-            out = out + self.knee * np.logaddexp(0.0, (self.strength - 0.02 - out) / self.knee)
+            out = out + self.knee * np.logaddexp(0.0, (self.strength - far - out) / self.knee)
         return out
 
 
