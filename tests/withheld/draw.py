@@ -60,6 +60,6 @@ def deck(seed_name, count):
             card["effects"], card["sizes"] = [str(strangers[turn % len(strangers)])], [_size(turn, 3.0, 50.0)]
         elif kind == "one_kind":
             card["work"], name = doubts[turn % len(doubts)]
-            card["effects"], card["sizes"] = [name], [_size(turn, 3.0, 30.0)]
+            card["effects"], card["sizes"] = [name], [_size(turn, 3.0, 15.0)]
         cards.append(card)
     return cards
