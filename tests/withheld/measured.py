@@ -75,7 +75,6 @@ def _magnetic(data, small, large):
     return {"calibration": _loop(data, small, 4), "record": _loop(data, large, 8), "test": _loop(data, large, 4)}
 
 
-LAGS = [["delay"], ["input_lag"], ["output_lag"]]
 BEYOND = [["unknown"], ["output_saturation"], ["output_nonlinearity"], ["noncongruency"]]
 # name: how it is made, the sets of causes that are right, what is known
 RECORDS = {
@@ -83,9 +82,9 @@ RECORDS = {
                       "loop's centre and width follow the measured pressure; temperature is a decoy"),
     "piston_kidney": (lambda d: _piston(d, "kidney", ([2, 6, 4, 1, 7], [3, 5]), 4), [["exogenous:pressure"]],
                       "loop's centre and width follow the measured pressure; temperature is a decoy"),
-    "piezo_varied": (_piezo_varied, [["delay"], ["creep"], ["delay", "creep"], ["creep", "delay"]] + LAGS[1:],
+    "piezo_varied": (_piezo_varied, [["delay"]],
                      "the output answers two samples late, which one 1 Hz loop hides; ceramics creep in the holds"),
-    "piezo_late_loops": (_piezo_late_loops, [["creep"], ["drift"], ["wear"], []],
+    "piezo_late_loops": (_piezo_late_loops, [["creep"], ["drift"]],
                          "the cycle mean creeps by 0.6 um in 40 cycles, 1 % of the range"),
     "ferrite_beyond": (lambda d: _magnetic(d, "mnzn_2.csv", "mnzn_4.csv"), BEYOND,
                        "amplitude five times the calibration's: saturation the model has not seen"),
@@ -109,7 +108,7 @@ def write(data, out):
 
 
 def judge(name, result, out):
-    """Right when the verdict, or a set it calls indistinguishable, is one of the known causes or holds one among others."""
+    """Right when the verdict, or a set it calls indistinguishable, holds a known cause: a machine may have others too."""
     with open(os.path.join(out, "sealed_measured", name + ".json"), encoding="utf-8") as file:
         truth = json.load(file)
     row = {"name": name, "known": truth["known"], "right_sets": truth["right"], "error": result["error"],
@@ -117,10 +116,9 @@ def judge(name, result, out):
     if "diagnosis" not in result:
         return row
     verdict = result["diagnosis"]["verdict"]
-    allowed = [sorted(s) for s in truth["right"]]
 
     def fits(effects):
-        return sorted(effects) in allowed or any([effect] in allowed for effect in effects)
+        return any([effect] in truth["right"] for effect in effects)
 
     row["verdict"] = verdict["effects"]
     row["indistinguishable"] = verdict["indistinguishable"]

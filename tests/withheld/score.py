@@ -39,7 +39,7 @@ def classes(rows):
 def naming(rows):
     c = classes(rows)
     answered = [dict(r, ok=not r["error"]) for r in rows]
-    alarms = [dict(r, alarm=r["verdict"] != []) for r in c["none"]]
+    alarms = [dict(r, alarm=bool(r["verdict"])) for r in c["none"]]
     sizes = [r["set_size"] for r in c["plays"]]
     return {
         "answered": _rate(answered, "ok"),
