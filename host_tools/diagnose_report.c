@@ -344,7 +344,8 @@ static void put_budget(const report_t* report, FILE* out)
         return;
     }
     html_element(out, "h2", "Error budget of the firmware");
-    fprintf(out, "<p class=\"soft\">RMS of firmware output less measured output: %.4g ", budget->total);
+    fprintf(out, "<p class=\"soft\">RMS of firmware output less measured output: %.4g%s", budget->total,
+            report->model->output_unit[0] != '\0' ? " " : "");
     html_text(out, report->model->output_unit);
     fputs("; shares of its mean square, largest first.</p>\n<div class=\"wide\"><table><tr><th>part</th><th>"
           "</th><th>share</th><th class=\"n\"></th><th class=\"n\">RMS</th></tr>\n",
@@ -360,8 +361,9 @@ static void put_budget(const report_t* report, FILE* out)
     }
     const html_bar_t cross = {reached / scale, 1 / scale, 1, 0,
                               budget->cross_share < 0 ? "negative" : "share"};
-    put_budget_row(out, "cross terms", "what the parts add or cancel between them", &cross,
-                   budget->cross_share, NULL);
+    char text[200];
+    budget_describe_cross(budget, text, sizeof text);
+    put_budget_row(out, "cross terms", text, &cross, budget->cross_share, NULL);
     put_budget_row(out, "total", "", &(html_bar_t){0, 1 / scale, 1, 0, "probability"}, 1, &budget->total);
     fputs("</table></div>\n", out);
 }
