@@ -183,6 +183,9 @@ static void put_script(FILE* script, const plot_t* plot)
           "set autoscale xfix\n"
           "set xzeroaxis linecolor rgb '#7d838c' dashtype 3\n",
           script);
+    if (plot->y_limit > 0) {
+        fprintf(script, "set yrange [%.9g:%.9g]\n", -plot->y_limit, plot->y_limit);
+    }
     put_label(script, 'x', plot->x_label);
     put_label(script, 'y', plot->y_label);
     for (size_t i = 0; i < plot->num_series; i++) {
