@@ -169,7 +169,9 @@ static json_t* findings_json(const findings_t* found)
         json_object_set_new(object, "budget", budget_to_json(&found->budget));
         json_object_set_new(
             object, "budget_total",
-            json_pack("{s:f, s:f}", "rmse", found->budget.total, "cross_share", found->budget.cross_share));
+            json_pack("{s:f, s:f, s:[s, s], s:f}", "rmse", found->budget.total, "cross_share",
+                      found->budget.cross_share, "cross_pair", budget_part_name(found->budget.pair[0]),
+                      budget_part_name(found->budget.pair[1]), "cross_pair_share", found->budget.pair_share));
     }
     return object;
 }
@@ -182,8 +184,9 @@ static void print_budget(const budget_t* budget)
         printf("budget: %8.3f %%  %-14s %.6g  %s\n", 100 * entry->share, budget_part_name(entry->part),
                entry->rmse, budget_part_text(entry->part));
     }
-    printf("budget: %8.3f %%  cross terms: what the parts add or cancel between them\n",
-           100 * budget->cross_share);
+    char cross[200];
+    budget_describe_cross(budget, cross, sizeof cross);
+    printf("budget: %8.3f %%  cross terms: %s\n", 100 * budget->cross_share, cross);
 }
 
 static void print_findings(const options_t* given, const model_t* model, const findings_t* found)

@@ -5,9 +5,11 @@
 #include "reference.h"
 #include "tabulate.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-/// The chain's outputs on the record, each [num_samples]; neighbours differ by one step.
+/// The chain's outputs on the record, each [num_samples]; neighbours differ by one step, and the first from
+/// the measured output by what the effects leave.
 enum { WITH_EFFECTS, FULL, COMPRESSED, CLAMPED, TABULATED, FIRMWARE, NUM_STAGES };
 
 static const struct {
@@ -56,6 +58,12 @@ static void tabulate_curve(curve_t* curve, const hyst_f32_model_t* stored)
     *curve = curve_table(x, y, count);
     free(x);
     free(y);
+}
+
+void budget_describe_cross(const budget_t* budget, char* text, size_t size)
+{
+    (void)snprintf(text, size, "what the parts add or cancel between them, most of it %s with %s (%+.3f %%)",
+                   parts[budget->pair[0]].name, parts[budget->pair[1]].name, 100 * budget->pair_share);
 }
 
 /// The model with the stored table's chords for its curves, still in double precision; a classical model as
@@ -166,6 +174,29 @@ static void share_out(const budget_chain_t* chain, double* const* stage, const d
     mean_square[BUDGET_ROUNDING] = mean_square_difference(stage[FIRMWARE], stage[TABULATED], n);
 }
 
+/// The pair of steps with the largest product in cross_share; `total` is the mean square that shares are of.
+static void find_pair(double* const* stage, const double* measured, size_t n, double total, budget_t* budget)
+{
+    static const budget_part_t steps[] = {BUDGET_UNEXPLAINED, BUDGET_UNMODELLED, BUDGET_COMPRESSION,
+                                          BUDGET_CLAMPING,    BUDGET_TABLE,      BUDGET_ROUNDING};
+    for (size_t i = 0; i < NUM_STAGES; i++) {
+        const double* before_i = i == 0 ? measured : stage[i - 1];
+        for (size_t j = 0; j < i; j++) {
+            const double* before_j = j == 0 ? measured : stage[j - 1];
+            double product = 0;
+            for (size_t t = 0; t < n; t++) {
+                product += (stage[i][t] - before_i[t]) * (stage[j][t] - before_j[t]);
+            }
+            const double share = 2 * product / (double)n / total;
+            if (fabs(share) > fabs(budget->pair_share)) {
+                budget->pair[0] = steps[i];
+                budget->pair[1] = steps[j];
+                budget->pair_share = share;
+            }
+        }
+    }
+}
+
 static outcome_t add_up(const budget_chain_t* chain, double* const* stage, const double* measured, size_t n,
                         budget_t* budget)
 {
@@ -181,7 +212,9 @@ static outcome_t add_up(const budget_chain_t* chain, double* const* stage, const
                              "the firmware's mean square error is %g, expected one above 0 to share out",
                              total);
     }
-    *budget = (budget_t){.total = sqrt(total), .cross_share = 1};
+    *budget =
+        (budget_t){.total = sqrt(total), .cross_share = 1, .pair = {BUDGET_UNMODELLED, BUDGET_UNEXPLAINED}};
+    find_pair(stage, measured, n, total, budget);
     for (int part = 0; part < BUDGET_PARTS; part++) {
         const double share = mean_square[part] / total;
         budget->entry[part] = (budget_entry_t){(budget_part_t)part, sqrt(mean_square[part]), share};

@@ -29,6 +29,8 @@ typedef struct {
     double total;                       ///< RMS of firmware output less measured output
     budget_entry_t entry[BUDGET_PARTS]; ///< largest first
     double cross_share; ///< what the steps' errors add or cancel between them: the shares and this sum to 1
+    budget_part_t pair[2]; ///< the two steps that add or cancel most; BUDGET_UNEXPLAINED stands for the rest
+    double pair_share;     ///< their part of cross_share
 } budget_t;
 
 /// What is compared, and what is known beside it.
@@ -45,6 +47,8 @@ typedef struct {
 const char* budget_part_name(budget_part_t part);
 /// What a user reads for the part.
 const char* budget_part_text(budget_part_t part);
+/// The cross terms in words.
+void budget_describe_cross(const budget_t* budget, char* text, size_t size);
 /// run: over the record (effect_run_new of the full model); measured[run->num_samples]. The firmware is the
 /// header that `hyst emit` makes of the compressed model by default. OUTCOME_NUMERICAL with a message when it
 /// cannot be made, or when the error is no number.

@@ -137,6 +137,31 @@ static outcome_t draw_loops(const drawing_t* drawing, const char* input, const c
     return outcome;
 }
 
+static int by_size(const void* a, const void* b)
+{
+    const double x = fabs(*(const double*)a);
+    const double y = fabs(*(const double*)b);
+    return (x > y) - (x < y);
+}
+
+/// The frame of the residuals: a start that the model knows nothing of, or a spike, must not flatten all the
+/// rest. 0 when nothing is far beyond the 99.5 % of the plain model's residuals; *beyond: how many are.
+static double residual_limit(const drawing_t* drawing, size_t* beyond)
+{
+    const size_t n = drawing->report->run->num_samples;
+    double* sorted = xmalloc(n * sizeof *sorted);
+    memcpy(sorted, drawing->residual_before, n * sizeof *sorted);
+    qsort(sorted, n, sizeof *sorted, by_size);
+    const double limit = 1.5 * fabs(sorted[n - 1 - n / 200]);
+    const bool is_far = fabs(sorted[n - 1]) > 2 * limit;
+    *beyond = 0;
+    for (size_t t = n; is_far && t > 0 && fabs(sorted[t - 1]) > limit; t--) {
+        *beyond += 1;
+    }
+    free(sorted);
+    return is_far ? limit : 0;
+}
+
 static outcome_t draw_residuals(const drawing_t* drawing, const plot_t* plot, const double* x)
 {
     const plot_series_t series[] = {
@@ -159,6 +184,8 @@ static outcome_t draw_plots(const drawing_t* drawing)
     with_unit("measured - model", report->model->output_unit, "", residual, sizeof residual);
     plot_t residuals = {
         .id = "residualTime", .x_label = "time [s]", .y_label = residual, .width = 1000, .height = 280};
+    size_t beyond = 0;
+    residuals.y_limit = residual_limit(drawing, &beyond);
     html_element(drawing->out, "h2", "Measured against model");
     outcome_t outcome = draw_over_time(drawing, output);
     if (outcome == OUTCOME_OK) {
@@ -168,13 +195,16 @@ static outcome_t draw_plots(const drawing_t* drawing)
     if (outcome == OUTCOME_OK) {
         outcome = draw_residuals(drawing, &residuals, report->run->time);
     }
+    if (beyond > 0) {
+        fprintf(drawing->out, "<p class=\"soft\">%zu of the model's residuals lie beyond the frame.</p>\n",
+                beyond);
+    }
     fputs("<div class=\"two\">\n", drawing->out);
-    residuals = (plot_t){.id = "residualInput",
-                         .x_label = input,
-                         .y_label = residual,
-                         .width = 500,
-                         .height = 320,
-                         .points = true};
+    residuals.id = "residualInput";
+    residuals.x_label = input;
+    residuals.width = 500;
+    residuals.height = 320;
+    residuals.points = true;
     if (outcome == OUTCOME_OK) {
         outcome = draw_residuals(drawing, &residuals, report->run->input);
     }
@@ -344,7 +374,8 @@ static void put_budget(const report_t* report, FILE* out)
         return;
     }
     html_element(out, "h2", "Error budget of the firmware");
-    fprintf(out, "<p class=\"soft\">RMS of firmware output less measured output: %.4g ", budget->total);
+    fprintf(out, "<p class=\"soft\">RMS of firmware output less measured output: %.4g%s", budget->total,
+            report->model->output_unit[0] != '\0' ? " " : "");
     html_text(out, report->model->output_unit);
     fputs("; shares of its mean square, largest first.</p>\n<div class=\"wide\"><table><tr><th>part</th><th>"
           "</th><th>share</th><th class=\"n\"></th><th class=\"n\">RMS</th></tr>\n",
@@ -360,8 +391,9 @@ static void put_budget(const report_t* report, FILE* out)
     }
     const html_bar_t cross = {reached / scale, 1 / scale, 1, 0,
                               budget->cross_share < 0 ? "negative" : "share"};
-    put_budget_row(out, "cross terms", "what the parts add or cancel between them", &cross,
-                   budget->cross_share, NULL);
+    char text[200];
+    budget_describe_cross(budget, text, sizeof text);
+    put_budget_row(out, "cross terms", text, &cross, budget->cross_share, NULL);
     put_budget_row(out, "total", "", &(html_bar_t){0, 1 / scale, 1, 0, "probability"}, 1, &budget->total);
     fputs("</table></div>\n", out);
 }

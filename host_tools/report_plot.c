@@ -180,8 +180,12 @@ static void put_script(FILE* script, const plot_t* plot)
           "set border 3 linecolor rgb '#7d838c'\n"
           "set tics nomirror out scale 0.5 textcolor rgb '#7d838c'\n"
           "set key outside top left horizontal reverse Left noenhanced textcolor rgb '#7d838c' samplen 1.5\n"
+          "set autoscale xfix\n"
           "set xzeroaxis linecolor rgb '#7d838c' dashtype 3\n",
           script);
+    if (plot->y_limit > 0) {
+        fprintf(script, "set yrange [%.9g:%.9g]\n", -plot->y_limit, plot->y_limit);
+    }
     put_label(script, 'x', plot->x_label);
     put_label(script, 'y', plot->y_label);
     for (size_t i = 0; i < plot->num_series; i++) {

@@ -19,6 +19,7 @@ typedef struct {
     const char* y_label; ///< labels may be any text
     int width, height;   ///< of the drawing's coordinates
     bool points;         ///< else lines
+    double y_limit;      ///< the frame's -limit ... limit; 0: all that is drawn
     size_t num_samples;
     size_t num_series;
     const plot_series_t* series;

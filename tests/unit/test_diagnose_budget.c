@@ -220,6 +220,22 @@ static void test_a_chain_without_a_step_has_nothing_there(void)
     TEST_ASSERT_EQUAL(BUDGET_NOISE, budget.entry[0].part);
 }
 
+static void test_the_pair_that_cancels_most_is_named(void)
+{
+    // The plant is the compressed model itself: what fewer plays change is what the full model is off by, so
+    // the two cancel.
+    reference_run(&compressed, START_NEGATIVE_SATURATION, input, SAMPLES, measured);
+    static double of_full[SAMPLES];
+    reference_run(&full, START_NEGATIVE_SATURATION, input, SAMPLES, of_full);
+    const budget_chain_t chain = chain_with(NULL);
+    const budget_t budget = budget_of(&chain);
+    TEST_ASSERT_EQUAL(BUDGET_COMPRESSION, budget.pair[0]);
+    TEST_ASSERT_EQUAL(BUDGET_UNEXPLAINED, budget.pair[1]);
+    // Twice the product of a course and its opposite.
+    const double expected = -2 * pow(rms_difference(of_full, measured) / budget.total, 2);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding * fabs(expected), expected, budget.pair_share);
+}
+
 static void test_known_misfit_is_identification(void)
 {
     const hypothesis_t lag = a_lag();
@@ -270,6 +286,7 @@ int main(void)
     RUN_TEST(test_table_and_rounding_keep_their_bounds);
     RUN_TEST(test_parts_add_up_to_the_firmware_within_the_cross_terms);
     RUN_TEST(test_a_chain_without_a_step_has_nothing_there);
+    RUN_TEST(test_the_pair_that_cancels_most_is_named);
     RUN_TEST(test_known_misfit_is_identification);
     RUN_TEST(test_inputs_beyond_the_range_are_clamped);
     RUN_TEST(test_a_model_that_float_cannot_hold_is_refused);
