@@ -310,6 +310,9 @@ static outcome_t run(const options_t* given, const char** paths)
     if (outcome == OUTCOME_OK) {
         outcome = model_read(paths[0], &model);
     }
+    if (outcome == OUTCOME_OK) {
+        outcome = command_refuse_effects(paths[0], &model, "the plain one, whose gap is to be explained");
+    }
     if (outcome == OUTCOME_OK && given->chain.full != NULL) {
         outcome = chain_read(&given->chain, &chain);
     }

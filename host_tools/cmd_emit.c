@@ -134,7 +134,7 @@ static outcome_t emit_model(const options_t* options, const char* path, const mo
 {
     const location_t from = {.file = input_name(path)};
     emission_t emission = {.model = model};
-    outcome_t outcome = command_refuse_effects(path, model);
+    outcome_t outcome = command_refuse_effects(path, model, "a plain one: firmware does not run effects");
     if (outcome == OUTCOME_OK) {
         outcome = find_table_error(options, model, &emission.requested_table_error);
     }

@@ -132,13 +132,13 @@ outcome_t command_start(const char* name, const model_t* model, start_t* start)
         "--initial \"%s\", expected negative-saturation, positive-saturation, demagnetised or model", name);
 }
 
-outcome_t command_refuse_effects(const char* path, const model_t* model)
+outcome_t command_refuse_effects(const char* path, const model_t* model, const char* expected)
 {
     if (json_array_size(model->effects) == 0) {
         return OUTCOME_OK;
     }
     const json_t* type = json_object_get(json_array_get(model->effects, 0), "type");
     return message_error(OUTCOME_BAD_INPUT, (location_t){.file = input_name(path)},
-                         "the model has effects (\"%s\" first): this version cannot run a model with effects",
-                         json_string_value(type));
+                         "the model has effects (\"%s\" first), expected %s", json_string_value(type),
+                         expected);
 }

@@ -37,8 +37,8 @@ outcome_t command_parse(const command_t* command, const struct poptOption* optio
 /// negative saturation.
 outcome_t command_start(const char* name, const model_t* model, start_t* start);
 
-/// Refuses a model with effects, which this version cannot run: OUTCOME_BAD_INPUT.
-outcome_t command_refuse_effects(const char* path, const model_t* model);
+/// Refuses a model with effects, saying what was expected instead: OUTCOME_BAD_INPUT.
+outcome_t command_refuse_effects(const char* path, const model_t* model, const char* expected);
 
 /// The options of every verb that reads a record: --columns, --sample-rate.
 #define RECORD_OPTIONS(columns_variable, rate_variable)                                                      \
