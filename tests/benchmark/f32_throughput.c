@@ -113,7 +113,7 @@ static bool measure(size_t num_plays)
 {
     f32_model_t made = film(num_plays);
     const int num_repeats = 1 + SAMPLES_TIMES_PLAYS / NUM_SAMPLES / (int)num_plays;
-    double least[2] = {INFINITY, INFINITY};
+    double least[2] = {(double)INFINITY, (double)INFINITY};
     double total[2] = {0.0, 0.0};
     make_inputs(&made.model);
     for (int round = 0; round < NUM_ROUNDS; ++round) {
