@@ -57,6 +57,7 @@ macro() { # macro NAME: the number that the header gives under it
 run_firmware() { # run_firmware PRESET BUILD-FOLDER RUN...: builds the self-test and prints what it says
     preset=$1 folder=$2
     shift 2
+    rm -rf "$folder" # a former version's may name a toolchain that has moved
     cmake --preset "$preset" -B "$folder" -DHYST_BUILD_HOST_TOOLS=OFF -DHYST_BUILD_TESTS=OFF \
         -DHYST_MODEL_HEADER="$root/$out/$name.h" -DHYST_MODEL_SYMBOL="$name" >"$out/firmware.log" 2>&1 &&
         cmake --build "$folder" >>"$out/firmware.log" 2>&1 || { cat "$out/firmware.log" >&2; exit 1; }
