@@ -98,9 +98,9 @@ static scale_t scale_of(const work_t* w, const diagnose_options_t* options)
     const double calibration = options->calibration_rmse * options->calibration_rmse;
     scale_t scale = {.noise = noise * noise};
     scale.misfit = fmax(calibration - scale.noise, 0);
-    scale.penalty = 0.02 * scale.noise + 0.8 * scale.misfit;
+    scale.penalty = 0.02 * scale.noise + 2 * scale.misfit;
     scale.further = scale.penalty + further_part * mean_square(&w->hypothesis[0]);
-    scale.doubt = 0.01 * scale.noise + 0.3 * scale.misfit;
+    scale.doubt = 0.01 * scale.noise + 0.6 * scale.misfit;
     return scale;
 }
 
@@ -340,7 +340,7 @@ static void weigh(work_t* w, size_t best, diagnosis_t* d)
     double total = 0;
     for (size_t i = 0; i < w->count; i++) {
         const hypothesis_t* h = &w->hypothesis[i];
-        bool shadowed = contains(h, leader) && i != best;
+        bool shadowed = i != best && (contains(h, leader) || !isfinite(h->held_out_rmse));
         for (size_t k = 0; k < w->count && !shadowed; k++) {
             shadowed = k != i && hypothesis_same_names(h, &w->hypothesis[k]) &&
                        (score(w, &w->hypothesis[k]) < score(w, h) ||

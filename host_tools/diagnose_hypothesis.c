@@ -241,6 +241,17 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
                     hypothesis->predicted);
 }
 
+static bool is_another(const hypothesis_t* hypothesis)
+{
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        const effect_use_t* use = &hypothesis->use[i];
+        if (use->effect->is_another != NULL && use->effect->is_another(use->parameter)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
 {
     double sum = 0;
@@ -262,5 +273,5 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         }
         search_free(&s);
     }
-    hypothesis->held_out_rmse = sqrt(sum / (double)gap->run->num_samples);
+    hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->run->num_samples);
 }

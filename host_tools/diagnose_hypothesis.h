@@ -25,7 +25,8 @@ typedef struct {
     size_t num_uses; ///< 0: the plain model
     effect_use_t use[HYPOTHESIS_MAX_EFFECTS];
     double fit_rmse;      ///< fitted to the whole record
-    double held_out_rmse; ///< each fold predicted by a fit to the others, the memory carried over
+    double held_out_rmse; ///< each fold predicted by a fit to the others, the memory carried over; infinite
+                          ///< where an effect's parameters make it another one
     double block_error[HYPOTHESIS_BLOCKS]; ///< held-out sum of squares of each block
     double* predicted; ///< [num_samples] by the fit to the whole record, or NULL before it
 } hypothesis_t;

@@ -68,6 +68,9 @@ struct effect {
     /// be NULL.
     void (*normalise)(double* parameter);
     void (*limits)(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
+    /// Whether these parameters make it another effect of the catalogue (creep of one time constant is a
+    /// lag), so that a fit that ends there says nothing for this one. May be NULL.
+    bool (*is_another)(const double* parameter);
     /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column, centred on its first
     /// value [num_samples], or NULL.
     void (*apply)(const effect_run_t* run, const double* parameter, const double* column, double* series);

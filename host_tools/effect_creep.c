@@ -45,6 +45,13 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
     }
 }
 
+/// Within a decade the spread of lags cannot be told from one.
+static bool is_one_lag(const double* parameter)
+{
+    return parameter[TAU_SLOW] < 10.0 * parameter[TAU_FAST] &&
+           parameter[TAU_FAST] < 10.0 * parameter[TAU_SLOW];
+}
+
 static const char* fault(const double* parameter)
 {
     return parameter[TAU_FAST] <= parameter[TAU_SLOW] ? NULL : "creep: \"tau_fast\" is above \"tau_slow\"";
@@ -146,6 +153,7 @@ const effect_t effect_creep_additional = {
     .fault = fault,
     .normalise = normalise,
     .limits = limits,
+    .is_another = is_one_lag,
     .apply = apply_additional,
     .invert = invert_additional,
 };
@@ -160,6 +168,7 @@ const effect_t effect_creep_delayed = {
     .fault = fault,
     .normalise = normalise,
     .limits = limits,
+    .is_another = is_one_lag,
     .apply = apply_delayed,
     .invert = invert_delayed,
 };
