@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static char folder[64];
+static char folder[4096];
 static int real_stderr = -1;
 static FILE* capture;
 
@@ -19,7 +19,9 @@ static void must(int condition)
 
 void folder_new(void)
 {
-    strcpy(folder, "/tmp/hyst_test_XXXXXX");
+    const char* base = getenv("TMPDIR");
+    must(snprintf(folder, sizeof folder, "%s/hyst_test_XXXXXX", base != NULL ? base : P_tmpdir) <
+         (int)sizeof folder);
     must(mkdtemp(folder) != NULL);
 }
 
