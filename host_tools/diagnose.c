@@ -376,7 +376,6 @@ static void conclude(work_t* w, size_t best, diagnosis_t* d)
     }
     d->structure = structure_found(&w->gap, leader->predicted, residual);
     free(residual);
-    d->is_none = best == 0 && left < 0.5;
     d->is_unknown = mean_square(leader) > 1.5 * floor && left > 0.15 && (left > 0.4 || d->structure > 0.3);
     d->is_none = best == 0 && !d->is_unknown;
     for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
