@@ -1,6 +1,9 @@
 #include "diagnose.h"
 
+#include "diagnose_body.h"
 #include "diagnose_structure.h"
+#include "reference.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,6 +30,10 @@ typedef struct {
 typedef struct {
     gap_t gap;
     const record_t* calibration; ///< or NULL
+    body_t body;
+    double* gpi;                         ///< [num_samples] the model alone
+    double gpi_error[HYPOTHESIS_BLOCKS]; ///< its sum of squares of each block
+    double gpi_rmse;
     scale_t scale;
     size_t count;
     hypothesis_t* hypothesis; ///< [MAX_HYPOTHESES], 0 is the plain model
@@ -95,7 +102,7 @@ static scale_t scale_of(const work_t* w, const diagnose_options_t* options)
     const double here = white_noise(difference, n);
     free(difference);
     const double noise = options->calibration_noise > 0 ? fmin(here, options->calibration_noise) : here;
-    const double calibration = options->calibration_rmse * options->calibration_rmse;
+    const double calibration = w->body.misfit * w->body.misfit;
     scale_t scale = {.noise = noise * noise};
     scale.misfit = fmax(calibration - scale.noise, 0);
     scale.penalty = 0.02 * scale.noise + 2 * scale.misfit;
@@ -249,8 +256,7 @@ static void try_pairs(work_t* w)
         if (pair[k].fit_rmse < hypothesis->fit_rmse) {
             memcpy(hypothesis->use, pair[k].use, sizeof hypothesis->use);
             hypothesis_fit(hypothesis, &w->gap, -1, SINGLE_EVALUATIONS);
-            effect_simulate(w->gap.run, w->gap.model, w->gap.start, hypothesis->use, 2,
-                            hypothesis->predicted);
+            hypothesis_predict(hypothesis, &w->gap);
         }
         hypothesis_judge(hypothesis, &w->gap);
     }
@@ -295,21 +301,54 @@ static double rms_distance(const double* a, const double* b, size_t n)
     return sqrt(sum / (double)n);
 }
 
+/// What the model with these effects leaves of each block. Where another body stood in for the judging, the fit's
+/// parameters are put into the model that the user has.
+static void remaining_error(const work_t* w, const hypothesis_t* h, double* block_error)
+{
+    memcpy(block_error, h->block_error, HYPOTHESIS_BLOCKS * sizeof *block_error);
+    if (!w->body.is_duhem && w->body.correction == NULL) {
+        return;
+    }
+    effect_run_t run = *w->gap.run;
+    run.body = NULL;
+    run.correction = NULL;
+    double* predicted = xmalloc(run.num_samples * sizeof *predicted);
+    effect_simulate(&run, w->gap.model, w->gap.start, h->use, h->num_uses, predicted);
+    size_t t = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        block_error[b] = 0;
+        for (; t < w->gap.block_end[b]; t++) {
+            block_error[b] += (predicted[t] - w->gap.output[t]) * (predicted[t] - w->gap.output[t]);
+        }
+    }
+    free(predicted);
+}
+
+static double sum_of(const double* values, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += values[i];
+    }
+    return sum;
+}
+
 /// Shrink with its 90 % interval over resampled stretches.
 static void set_shrink(const work_t* w, cause_t* cause)
 {
     enum { RESAMPLES = 400 };
-    const hypothesis_t* plain = &w->hypothesis[0];
     double shrink[RESAMPLES];
+    double left[HYPOTHESIS_BLOCKS];
     unsigned long long seed = 20150757;
+    remaining_error(w, cause->hypothesis, left);
     for (size_t r = 0; r < RESAMPLES; r++) {
         double before = 0;
         double after = 0;
         for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
             seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
             const size_t drawn = (size_t)((seed >> 33) % HYPOTHESIS_BLOCKS);
-            before += plain->block_error[drawn];
-            after += cause->hypothesis->block_error[drawn];
+            before += w->gpi_error[drawn];
+            after += left[drawn];
         }
         shrink[r] = before > 0 ? 1 - sqrt(after / before) : 0;
         for (size_t k = r; k > 0 && shrink[k] < shrink[k - 1]; k--) {
@@ -318,8 +357,8 @@ static void set_shrink(const work_t* w, cause_t* cause)
             shrink[k - 1] = swap;
         }
     }
-    cause->rmse_after = cause->hypothesis->held_out_rmse;
-    cause->shrink = 1 - cause->rmse_after / plain->held_out_rmse;
+    cause->rmse_after = sqrt(sum_of(left, HYPOTHESIS_BLOCKS) / (double)w->gap.run->num_samples);
+    cause->shrink = 1 - cause->rmse_after / w->gpi_rmse;
     cause->shrink_low = fmin(shrink[RESAMPLES / 20], cause->shrink);
     cause->shrink_high = fmax(shrink[RESAMPLES - 1 - RESAMPLES / 20], cause->shrink);
 }
@@ -401,8 +440,16 @@ static void advise(const work_t* w, diagnosis_t* d)
 
 static void describe_gap(const work_t* w, diagnosis_t* d)
 {
-    const double floor = sqrt(floor_square(w));
-    d->rmse = w->hypothesis[0].held_out_rmse;
+    double square = floor_square(w);
+    const size_t n = w->gap.run->num_samples;
+    double* body = xmalloc(n * sizeof *body);
+    effect_simulate(w->gap.run, w->gap.model, w->gap.start, NULL, 0, body);
+    for (size_t t = 0; t < n; t++) {
+        square += (body[t] - w->gpi[t]) * (body[t] - w->gpi[t]) / (double)n;
+    }
+    free(body);
+    const double floor = sqrt(square);
+    d->rmse = w->gpi_rmse;
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
     for (size_t t = 0; t < w->gap.run->num_samples; t++) {
@@ -413,6 +460,19 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
     d->noise = sqrt(w->scale.noise);
     d->noise_floor = floor;
     d->closable = fmax(0, 1 - floor / d->rmse);
+}
+
+/// The model alone, whose gap it is.
+static void set_gpi(work_t* w)
+{
+    const size_t n = w->gap.run->num_samples;
+    w->gpi = xmalloc(n * sizeof *w->gpi);
+    reference_run(w->gap.model, w->gap.start, w->gap.run->input, n, w->gpi);
+    for (size_t t = 0; t < n; t++) {
+        const double error = w->gpi[t] - w->gap.output[t];
+        w->gpi_error[gap_block_of(&w->gap, t)] += error * error;
+    }
+    w->gpi_rmse = sqrt(sum_of(w->gpi_error, HYPOTHESIS_BLOCKS) / (double)n);
 }
 
 outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_options_t* options,
@@ -426,8 +486,17 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     effect_run_t run = effect_run_new(model, record);
     fast_plays_t* fast = fast_plays_new(model, options->start);
     run.fast = fast;
-    work_t w = {.gap = gap_new(model, &run, options->start, record->output),
-                .calibration = options->calibration};
+    work_t w = {.calibration = options->calibration,
+                .body = {.misfit = options->calibration_rmse, .noise = options->calibration_noise}};
+    if (options->calibration != NULL) {
+        w.body = body_find(model, options->start, options->calibration, options->calibration_rmse,
+                           options->calibration_noise, record);
+        run.body = w.body.is_duhem ? &w.body.duhem : NULL;
+        run.correction = w.body.correction;
+    }
+    w.gap = gap_new(model, &run, options->start, record->output, &w.body.nuisance,
+                    fmax(w.body.misfit * w.body.misfit, DBL_MIN));
+    set_gpi(&w);
     w.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *w.hypothesis);
     hypothesis_t* plain = add(&w, NULL, 0);
     hypothesis_search(plain, &w.gap, false, 1);
@@ -452,10 +521,20 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     diagnosis->num_regions =
         where_find(&run, record->output, difference, diagnosis->noise, diagnosis->region);
     free(difference);
+    if (getenv("HD")) {
+        fprintf(stderr, "duhem %d k %zu noise2 1 calmse %.3f misfit2 %.3f gap2 %.3f | ", w.body.is_duhem, w.body.nuisance.count, w.body.misfit*w.body.misfit/w.scale.noise, w.scale.misfit/w.scale.noise, w.gpi_rmse*w.gpi_rmse/w.scale.noise);
+        hypothesis_t h[MAX_HYPOTHESES]; memcpy(h, w.hypothesis, w.count*sizeof *h); qsort(h, w.count, sizeof *h, by_held_out);
+        fprintf(stderr, "none %.3f ", mean_square(w.hypothesis)/w.scale.noise);
+        for (size_t i=0;i<w.count && i<14;i++) { for (size_t k=0;k<h[i].num_uses;k++) fprintf(stderr,"%s%.9s",k?"+":"",h[i].use[k].effect->name); fprintf(stderr," %.3f ", mean_square(&h[i])/w.scale.noise);}
+        fprintf(stderr, "\n");
+    }
     diagnosis->hypothesis = w.hypothesis;
     diagnosis->num_hypotheses = w.count;
     effect_run_free(&run);
     fast_plays_free(fast);
+    gap_free(&w.gap);
+    body_free(&w.body);
+    free(w.gpi);
     return OUTCOME_OK;
 }
 

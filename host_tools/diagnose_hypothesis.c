@@ -7,13 +7,29 @@
 
 enum { MAX_THETA = HYPOTHESIS_MAX_EFFECTS * EFFECT_MAX_PARAMETERS };
 
-gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output)
+gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
+              const nuisance_t* nuisance, double variance)
 {
     gap_t gap = {.model = model, .run = run, .start = start, .output = output};
+    bool* counts = xmalloc(run->num_samples * sizeof *counts);
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
         gap.block_end[b] = run->num_samples * (b + 1) / HYPOTHESIS_BLOCKS;
     }
+    for (size_t fold = 0; fold <= HYPOTHESIS_FOLDS; fold++) {
+        for (size_t t = 0; t < run->num_samples; t++) {
+            counts[t] = gap_block_of(&gap, t) % HYPOTHESIS_FOLDS != fold;
+        }
+        gap.filter[fold] = nuisance_filter_new(nuisance, variance, counts);
+    }
+    free(counts);
     return gap;
+}
+
+void gap_free(gap_t* gap)
+{
+    for (size_t fold = 0; fold <= HYPOTHESIS_FOLDS; fold++) {
+        nuisance_filter_free(&gap->filter[fold]);
+    }
 }
 
 size_t gap_block_of(const gap_t* gap, size_t sample)
@@ -83,6 +99,8 @@ typedef struct {
     size_t num_free;
     free_t free[MAX_THETA];
     int held_out;
+    const nuisance_filter_t* filter;
+    double* amount;    ///< [filter's directions] of the nuisance, found with the last residual
     bool rest_only;    ///< no effect before the body: the plays need to run only once
     double* plays;     ///< [num_samples] output of drive side and hysteresis, when rest_only
     double* simulated; ///< [num_samples]
@@ -120,6 +138,8 @@ static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_
             f->limits = effect_use_limits(gap->run, use, p);
         }
     }
+    s.filter = &gap->filter[held_out < 0 ? HYPOTHESIS_FOLDS : held_out];
+    s.amount = xcalloc(s.filter->nuisance->count + 1, sizeof *s.amount);
     s.simulated = xmalloc(gap->run->num_samples * sizeof *s.simulated);
     s.plays = xmalloc(gap->run->num_samples * sizeof *s.plays);
     effect_simulate_hysteresis(gap->run, gap->model, gap->start, NULL, 0, s.plays);
@@ -128,6 +148,7 @@ static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_
 
 static void search_free(search_t* s)
 {
+    free(s->amount);
     free(s->simulated);
     free(s->plays);
 }
@@ -148,16 +169,41 @@ static bool is_held_out(const search_t* s, size_t block)
     return s->held_out >= 0 && block % HYPOTHESIS_FOLDS == (size_t)s->held_out;
 }
 
-/// Errors at the samples of the blocks that are fitted, 0 at the others.
-static void residual_of(search_t* s, double* residual)
+static size_t num_residuals(const search_t* s)
 {
-    simulate(s);
+    return s->gap->run->num_samples + s->filter->nuisance->count;
+}
+
+static void keep_fitted(const search_t* s, double* residual)
+{
     size_t t = 0;
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
         const bool skip = is_held_out(s, b);
         for (; t < s->gap->block_end[b]; t++) {
-            residual[t] = skip ? 0 : s->simulated[t] - s->gap->output[t];
+            residual[t] = skip ? 0 : residual[t];
         }
+    }
+}
+
+/// Errors at all samples, but for what the nuisance explains of the fitted ones; then the price of that.
+static void residual_of(search_t* s, double* residual)
+{
+    const size_t n = s->gap->run->num_samples;
+    simulate(s);
+    for (size_t t = 0; t < n; t++) {
+        residual[t] = s->simulated[t] - s->gap->output[t];
+    }
+    if (s->filter->nuisance->count > 0) {
+        // The nuisance is found on what is fitted and taken out everywhere.
+        double* all = s->simulated;
+        memcpy(all, residual, n * sizeof *all);
+        keep_fitted(s, residual);
+        nuisance_filter_find(s->filter, residual, s->amount);
+        memcpy(residual, all, n * sizeof *all);
+        nuisance_take(s->filter->nuisance, s->amount, residual);
+    }
+    for (size_t k = 0; k < s->filter->nuisance->count; k++) {
+        residual[n + k] = sqrt(s->filter->variance) * s->amount[k];
     }
 }
 
@@ -170,6 +216,7 @@ static int minpack_residual(void* context, int m, int n, const double* theta, do
         from_theta(&s->free[i], theta[i]);
     }
     residual_of(s, residual);
+    keep_fitted(s, residual);
     return 0;
 }
 
@@ -187,7 +234,7 @@ static size_t count_fitted(const search_t* s)
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations)
 {
     search_t s = search_new(hypothesis, gap, held_out);
-    const size_t m = gap->run->num_samples;
+    const size_t m = num_residuals(&s);
     const size_t n = s.num_free;
     double* work = xcalloc(2 * m + m * (n + 1) + 6 * (n + 1), sizeof *work);
     double* residual = work;
@@ -210,6 +257,7 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
         }
     }
     residual_of(&s, residual);
+    keep_fitted(&s, residual);
     double sum = 0;
     for (size_t t = 0; t < m; t++) {
         sum += residual[t] * residual[t];
@@ -234,11 +282,18 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
         }
     }
     *hypothesis = best;
-    if (hypothesis->predicted == NULL) {
-        hypothesis->predicted = xmalloc(gap->run->num_samples * sizeof *hypothesis->predicted);
+    hypothesis_predict(hypothesis, gap);
+}
+
+void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
+{
+    search_t s = search_new(hypothesis, gap, -1);
+    hypothesis->predicted = xrealloc(hypothesis->predicted, num_residuals(&s) * sizeof *hypothesis->predicted);
+    residual_of(&s, hypothesis->predicted);
+    for (size_t t = 0; t < gap->run->num_samples; t++) {
+        hypothesis->predicted[t] += gap->output[t];
     }
-    effect_simulate(gap->run, gap->model, gap->start, hypothesis->use, hypothesis->num_uses,
-                    hypothesis->predicted);
+    search_free(&s);
 }
 
 static bool is_another(const hypothesis_t* hypothesis)
@@ -255,23 +310,25 @@ static bool is_another(const hypothesis_t* hypothesis)
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
 {
     double sum = 0;
+    double* residual = xmalloc((gap->run->num_samples + gap->filter[0].nuisance->count) * sizeof *residual);
     for (int fold = 0; fold < HYPOTHESIS_FOLDS; fold++) {
         hypothesis_t trial = *hypothesis;
         hypothesis_fit(&trial, gap, fold, 30);
-        search_t s = search_new(&trial, gap, -1);
-        simulate(&s);
+        search_t s = search_new(&trial, gap, fold);
+        residual_of(&s, residual);
         size_t t = 0;
         for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
             double error = 0;
             for (; t < gap->block_end[b]; t++) {
-                error += (s.simulated[t] - gap->output[t]) * (s.simulated[t] - gap->output[t]);
+                error += residual[t] * residual[t];
             }
-            if (b % HYPOTHESIS_FOLDS == (size_t)fold) {
+            if (is_held_out(&s, b)) {
                 hypothesis->block_error[b] = error;
                 sum += error;
             }
         }
         search_free(&s);
     }
+    free(residual);
     hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->run->num_samples);
 }

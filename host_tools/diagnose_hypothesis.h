@@ -5,6 +5,7 @@
 
 #include "effect.h"
 #include "message.h"
+#include "nuisance.h"
 
 enum { HYPOTHESIS_MAX_EFFECTS = 3, HYPOTHESIS_BLOCKS = 24, HYPOTHESIS_FOLDS = 4 };
 
@@ -16,9 +17,13 @@ typedef struct {
     const double* output; ///< [run->num_samples] measured
     size_t
         block_end[HYPOTHESIS_BLOCKS]; ///< contiguous stretches; block b belongs to fold b % HYPOTHESIS_FOLDS
+    nuisance_filter_t filter[HYPOTHESIS_FOLDS + 1]; ///< with each fold held out, and with none
 } gap_t;
 
-gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output);
+/// nuisance: what the body leaves open, no directions: nothing. variance: of what the output holds besides.
+gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
+              const nuisance_t* nuisance, double variance);
+void gap_free(gap_t* gap);
 size_t gap_block_of(const gap_t* gap, size_t sample);
 
 typedef struct {
@@ -28,7 +33,8 @@ typedef struct {
     double held_out_rmse; ///< each fold predicted by a fit to the others, the memory carried over; infinite
                           ///< where an effect's parameters make it another one
     double block_error[HYPOTHESIS_BLOCKS]; ///< held-out sum of squares of each block
-    double* predicted; ///< [num_samples] by the fit to the whole record, or NULL before it
+    double* predicted; ///< [num_samples] by the fit to the whole record, with what the body leaves open chosen for
+                       ///< it; or NULL before it
 } hypothesis_t;
 
 hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses);
@@ -42,6 +48,8 @@ void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
 /// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
+/// Fills `predicted` for the present parameters.
+void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap);
 /// Held-out errors, from the present parameters.
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap);
 

@@ -8,6 +8,7 @@
 #ifndef HYST_HOST_EFFECT_H
 #define HYST_HOST_EFFECT_H
 
+#include "duhem.h"
 #include "fast_plays.h"
 #include "hysteresis.h"
 #include "message.h"
@@ -32,6 +33,9 @@ typedef struct {
     double travel;                 ///< the sum of |d input|
     double largest_radius;         ///< of a play that the model's range can move, envelope units
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
+    const duhem_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they do
+                         ///< on the model's; or NULL
+    const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
 } effect_run_t;
 
 enum { EFFECT_MAX_PARAMETERS = 10 };

@@ -205,6 +205,46 @@ static void run_fast(const effect_run_t* run, const model_t* model, const hyster
     free(sum);
 }
 
+/// The model's hysteresis over the drive's output.
+static void run_plays(const effect_run_t* run, const model_t* model, start_t start,
+                      const hysteresis_t* hysteresis, const double* drive, double* output)
+{
+    if (run->fast != NULL && hysteresis_keeps_plays(hysteresis)) {
+        run_fast(run, model, hysteresis, drive, output);
+    } else {
+        hysteresis_run(model, start, hysteresis, run->time, drive, run->num_samples, output);
+    }
+}
+
+/// The body that stands in, and what the effects change in the plays. Another memory at the start is this body's
+/// own to forget.
+static void run_body(const effect_run_t* run, const model_t* model, start_t start, hysteresis_t* hysteresis,
+                     const double* drive, double* output)
+{
+    if (hysteresis_is_neutral(hysteresis)) {
+        duhem_run(run->body, model, start, 0, drive, run->num_samples, output);
+        return;
+    }
+    const hysteresis_t neutral = hysteresis_neutral();
+    double* plain = xmalloc(run->num_samples * sizeof(double));
+    double* body = xmalloc(run->num_samples * sizeof(double));
+    run_plays(run, model, start, &neutral, drive, plain);
+    double shift = 0;
+    if (hysteresis->start_fraction != NULL) {
+        hysteresis_state_t first = hysteresis_start(model, start, hysteresis, drive[0]);
+        shift = hysteresis_output(&first) - plain[0];
+        hysteresis_state_free(&first);
+        hysteresis->start_fraction = NULL;
+    }
+    run_plays(run, model, start, hysteresis, drive, output);
+    duhem_run(run->body, model, start, shift, drive, run->num_samples, body);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        output[i] += body[i] - plain[i];
+    }
+    free(plain);
+    free(body);
+}
+
 void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
                                 const effect_use_t* uses, size_t num_uses, double* output)
 {
@@ -215,10 +255,13 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     double* drive = memcpy(xmalloc(size), run->input, size);
     apply_stage(run, uses, num_uses, EFFECT_DRIVE, drive);
     hysteresis_t hysteresis = effect_hysteresis(run, uses, num_uses);
-    if (run->fast != NULL && hysteresis_keeps_plays(&hysteresis)) {
-        run_fast(run, model, &hysteresis, drive, output);
+    if (run->body != NULL) {
+        run_body(run, model, start, &hysteresis, drive, output);
     } else {
-        hysteresis_run(model, start, &hysteresis, run->time, drive, run->num_samples, output);
+        run_plays(run, model, start, &hysteresis, drive, output);
+    }
+    for (size_t i = 0; run->correction != NULL && i < run->num_samples; ++i) {
+        output[i] += run->correction[i];
     }
     hysteresis_free(&hysteresis);
     free(drive);

@@ -1,0 +1,178 @@
+#include "diagnose_body.h"
+
+#include "duhem_fit.h"
+#include "everett.h"
+#include "reference.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Of the model's squared misfit, what a Duhem body may leave: it has more free numbers, and where a plant is of
+/// Preisach's kind it fits the loops it has seen and no others.
+static const double clearly_less = 0.8;
+static const double no_more = 1.05;
+
+static double mean_square_error(const double* a, const double* b, size_t n)
+{
+    double sum = 0;
+    for (size_t t = 0; t < n; t++) {
+        sum += (a[t] - b[t]) * (a[t] - b[t]);
+    }
+    return sum / (double)n;
+}
+
+/// Whether the Duhem body is at least as near to the record, whatever else acts on it.
+static bool is_near(const model_t* model, start_t start, const duhem_t* duhem, const record_t* record)
+{
+    const size_t n = record->num_samples;
+    double* output = xmalloc(n * sizeof *output);
+    duhem_run(duhem, model, start, 0, record->input, n, output);
+    const double with = mean_square_error(output, record->output, n);
+    reference_run(model, start, record->input, n, output);
+    const double without = mean_square_error(output, record->output, n);
+    free(output);
+    return with <= no_more * without;
+}
+
+/// How many neighbouring samples of a residual count as one independent: 1 + 2 sum of its autocorrelation, to where
+/// that has died out.
+static double correlation_of(const double* residual, size_t n)
+{
+    double energy = 0;
+    for (size_t t = 0; t < n; t++) {
+        energy += residual[t] * residual[t];
+    }
+    double sum = 1;
+    for (size_t lag = 1; lag < n / 10; lag++) {
+        double product = 0;
+        for (size_t t = lag; t < n; t++) {
+            product += residual[t] * residual[t - lag];
+        }
+        if (!(product > 0.05 * energy)) {
+            break;
+        }
+        sum += 2 * product / energy;
+    }
+    return sum;
+}
+
+typedef struct {
+    const body_t* body;
+    const model_t* model;
+    start_t start;
+    const double* input;
+    duhem_state_t state;
+    double derivative[DUHEM_FREE];
+    everett_past_t past;
+} rows_t;
+
+static void duhem_rows(void* context, size_t begin, size_t end, double* derivatives)
+{
+    rows_t* r = context;
+    if (begin == 0) {
+        r->state = duhem_start(&r->body->duhem, r->model, r->start, r->input[0], r->derivative);
+    }
+    for (size_t t = begin; t < end; t++) {
+        (void)duhem_step(&r->state, r->input[t]);
+        memcpy(&derivatives[(t - begin) * DUHEM_FREE], r->derivative, sizeof r->derivative);
+    }
+}
+
+static void everett_rows(void* context, size_t begin, size_t end, double* derivatives)
+{
+    rows_t* r = context;
+    if (begin == 0) {
+        r->past = everett_start(r->model);
+    }
+    for (size_t t = begin; t < end; t++) {
+        everett_step(&r->past, r->input[t], &derivatives[(t - begin) * EVERETT_FREE]);
+    }
+}
+
+/// Directions that add less than this to the record's squared error, in squared misfits, say nothing.
+static const double least_energy = 1;
+
+static void scale(double* precision, size_t numbers, double factor)
+{
+    for (size_t i = 0; i < numbers * numbers; i++) {
+        precision[i] *= factor;
+    }
+}
+
+/// Sets `duhem`, `misfit` and `nuisance` where it is taken.
+static void try_duhem(body_t* body, const model_t* model, start_t start, const record_t* calibration,
+                      const record_t* record)
+{
+    const size_t n = calibration->num_samples;
+    double* precision = xmalloc((size_t)DUHEM_FREE * DUHEM_FREE * sizeof *precision);
+    double* residual = xmalloc(n * sizeof *residual);
+    double left = HUGE_VAL;
+    body->duhem = duhem_fit(model, start, calibration->input, calibration->output, n, body->noise, &left, precision);
+    if (left * left < clearly_less * body->misfit * body->misfit && is_near(model, start, &body->duhem, record)) {
+        body->is_duhem = true;
+        body->misfit = left;
+        duhem_run(&body->duhem, model, start, 0, calibration->input, n, residual);
+        for (size_t t = 0; t < n; t++) {
+            residual[t] = calibration->output[t] - residual[t];
+        }
+        const double errors = left * left / (body->noise * body->noise) * correlation_of(residual, n);
+        scale(precision, DUHEM_FREE, 1 / errors);
+        rows_t rows = {.body = body, .model = model, .start = start, .input = record->input};
+        body->nuisance = nuisance_new(precision, DUHEM_FREE, record->num_samples, least_energy * left * left,
+                                      duhem_rows, &rows);
+    }
+    free(precision);
+    free(residual);
+}
+
+/// Sets `correction`, `misfit` and `nuisance`.
+static void add_everett(body_t* body, const model_t* model, const record_t* calibration, const record_t* record)
+{
+    const size_t n = calibration->num_samples;
+    double* precision = xmalloc((size_t)EVERETT_FREE * EVERETT_FREE * sizeof *precision);
+    double* difference = xmalloc(n * sizeof *difference);
+    double value[EVERETT_FREE];
+    double row[EVERETT_FREE];
+    reference_run(model, START_NEGATIVE_SATURATION, calibration->input, n, difference);
+    for (size_t t = 0; t < n; t++) {
+        difference[t] = calibration->output[t] - difference[t];
+    }
+    const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n), value,
+                                    precision);
+    body->misfit = fmin(left, body->misfit);
+    scale(precision, EVERETT_FREE, 1 / (left * left));
+    rows_t rows = {.body = body, .model = model, .input = record->input};
+    body->nuisance = nuisance_new(precision, EVERETT_FREE, record->num_samples, least_energy * left * left,
+                                  everett_rows, &rows);
+    body->correction = xcalloc(record->num_samples, sizeof *body->correction);
+    everett_past_t past = everett_start(model);
+    for (size_t t = 0; t < record->num_samples; t++) {
+        everett_step(&past, record->input[t], row);
+        for (size_t k = 0; k < EVERETT_FREE; k++) {
+            body->correction[t] += row[k] * value[k];
+        }
+    }
+    free(precision);
+    free(difference);
+}
+
+body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,
+                 double noise, const record_t* record)
+{
+    body_t body = {.misfit = model_misfit, .noise = noise};
+    if (!(noise > 0 && model_misfit > noise && calibration->num_samples > 2 * DUHEM_FREE)) {
+        return body;
+    }
+    try_duhem(&body, model, start, calibration, record);
+    if (!body.is_duhem && start == START_NEGATIVE_SATURATION) {
+        add_everett(&body, model, calibration, record);
+    }
+    return body;
+}
+
+void body_free(body_t* body)
+{
+    free(body->correction);
+    nuisance_free(&body->nuisance);
+    *body = (body_t){0};
+}
