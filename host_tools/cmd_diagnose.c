@@ -338,7 +338,7 @@ outcome_t cmd_diagnose(int argc, const char** argv)
         {"report", 0, POPT_ARG_STRING, &given.report, 0,
          "the diagnosis with plots, as one file (needs gnuplot)", "FILE.html"},
         {"chain", 0, POPT_ARG_STRING, &given.chain_text, 0,
-         "also the firmware's error budget on the record, from the full model to the header (f32)",
+         "also the firmware's error budget on the record, from the full model to the header",
          CHAIN_ARGUMENTS},
         {"initial", 0, POPT_ARG_STRING, &given.initial, 0, "the memory at the start",
          "negative-saturation|positive-saturation|demagnetised|model"},
