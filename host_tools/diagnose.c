@@ -1,6 +1,7 @@
 #include "diagnose.h"
 
 #include "diagnose_structure.h"
+#include "resample.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -298,30 +299,13 @@ static double rms_distance(const double* a, const double* b, size_t n)
 /// Shrink with its 90 % interval over resampled stretches.
 static void set_shrink(const work_t* w, cause_t* cause)
 {
-    enum { RESAMPLES = 400 };
     const hypothesis_t* plain = &w->hypothesis[0];
-    double shrink[RESAMPLES];
-    unsigned long long seed = 20150757;
-    for (size_t r = 0; r < RESAMPLES; r++) {
-        double before = 0;
-        double after = 0;
-        for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-            seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-            const size_t drawn = (size_t)((seed >> 33) % HYPOTHESIS_BLOCKS);
-            before += plain->block_error[drawn];
-            after += cause->hypothesis->block_error[drawn];
-        }
-        shrink[r] = before > 0 ? 1 - sqrt(after / before) : 0;
-        for (size_t k = r; k > 0 && shrink[k] < shrink[k - 1]; k--) {
-            const double swap = shrink[k];
-            shrink[k] = shrink[k - 1];
-            shrink[k - 1] = swap;
-        }
-    }
+    const interval_t left =
+        resample_ratio(cause->hypothesis->block_error, plain->block_error, HYPOTHESIS_BLOCKS, 1);
     cause->rmse_after = cause->hypothesis->held_out_rmse;
     cause->shrink = 1 - cause->rmse_after / plain->held_out_rmse;
-    cause->shrink_low = fmin(shrink[RESAMPLES / 20], cause->shrink);
-    cause->shrink_high = fmax(shrink[RESAMPLES - 1 - RESAMPLES / 20], cause->shrink);
+    cause->shrink_low = fmin(1 - sqrt(left.high), cause->shrink);
+    cause->shrink_high = fmax(1 - sqrt(left.low), cause->shrink);
 }
 
 static int by_probability(const void* a, const void* b)
