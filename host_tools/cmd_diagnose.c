@@ -33,6 +33,10 @@ static void print_report(const diagnosis_t* d, const model_t* model)
 {
     printf("gap: rmse %.6g %s, %.3g %% of the output's range; noise and known misfit account for %.6g\n",
            d->rmse, model->output_unit, 100 * d->relative, d->noise_floor);
+    if (d->num_judged < d->num_samples) {
+        printf("judged by %zu of %zu samples, in full-rate stretches spread over the record\n", d->num_judged,
+               d->num_samples);
+    }
     for (size_t i = 0; i < d->num_regions && i < 3 && d->closable > 0; i++) {
         char text[200];
         where_describe(&d->region[i], model->input_unit, model->output_unit, text, sizeof text);

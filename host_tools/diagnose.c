@@ -1,6 +1,7 @@
 #include "diagnose.h"
 
 #include "diagnose_structure.h"
+#include "record_thin.h"
 #include "resample.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,11 +9,20 @@
 #include <string.h>
 
 enum { LEAST_SAMPLES = 200, MAX_SINGLES = 64, MAX_HYPOTHESES = 700 };
-enum { SINGLE_EVALUATIONS = 40, PAIR_EVALUATIONS = 24, LEADING_SINGLES = 5, REFINED_PAIRS = 6 };
+enum {
+    SINGLE_EVALUATIONS = 40,
+    PAIR_EVALUATIONS = 24,
+    LEADING_SINGLES = 5,
+    REFINED_PAIRS = 6,
+    LAST_EVALUATIONS = 20
+};
 
 /// Part of the gap's energy that one more effect beside another must gain: what the first one's own physics,
 /// a little other than the plant's, leaves is no second effect.
 static const double further_part = 3e-3;
+/// Samples by which a long record is judged, and those that the verdict's parameters are then fitted to.
+static const size_t most_judged = 12000;
+static const size_t most_fitted = 1000000;
 /// Independent stretches that a record counts for at most when hypotheses are weighed against each other.
 static const double most_evidence = 80;
 
@@ -86,15 +96,9 @@ static double score(const work_t* w, const hypothesis_t* hypothesis)
            (uses > 0 ? w->scale.penalty + w->scale.further * (double)(uses - 1) : 0);
 }
 
-static scale_t scale_of(const work_t* w, const diagnose_options_t* options)
+/// here: the noise of the record itself.
+static scale_t scale_of(const work_t* w, const diagnose_options_t* options, double here)
 {
-    const size_t n = w->gap.run->num_samples;
-    double* difference = xmalloc(n * sizeof *difference);
-    for (size_t t = 0; t < n; t++) {
-        difference[t] = w->gap.output[t] - w->hypothesis[0].predicted[t];
-    }
-    const double here = white_noise(difference, n);
-    free(difference);
     const double noise = options->calibration_noise > 0 ? fmin(here, options->calibration_noise) : here;
     const double calibration = options->calibration_rmse * options->calibration_rmse;
     scale_t scale = {.noise = noise * noise};
@@ -399,6 +403,54 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
     d->closable = fmax(0, 1 - floor / d->rmse);
 }
 
+/// The gap of the plain model over the whole record, allocated.
+static double* whole_gap(const model_t* model, const effect_run_t* run, start_t start, const double* output)
+{
+    double* difference = xmalloc(run->num_samples * sizeof *difference);
+    effect_simulate(run, model, start, NULL, 0, difference);
+    for (size_t t = 0; t < run->num_samples; t++) {
+        difference[t] = output[t] - difference[t];
+    }
+    return difference;
+}
+
+/// What thinning left open: the verdict's parameters by all samples (up to most_fitted), and the courses of
+/// it and of the plain model over the whole record.
+static void finish_on_whole(const work_t* w, const effect_run_t* run, const cause_t* verdict)
+{
+    thinned_t fitted = record_thin(run->record, most_fitted);
+    effect_run_t fitted_run = effect_run_new(w->gap.model, &fitted.record);
+    fitted_run.fast = run->fast;
+    gap_t gap = gap_new(w->gap.model, &fitted_run, w->gap.start, fitted.record.output);
+    gap_leave_out(&gap, fitted.carried);
+    for (size_t i = 0; i < w->count; i++) {
+        hypothesis_t* h = &w->hypothesis[i];
+        if (i > 0 && h == verdict->hypothesis) {
+            hypothesis_fit(h, &gap, -1, LAST_EVALUATIONS);
+        }
+        if (i == 0 || h == verdict->hypothesis) {
+            h->predicted = xrealloc(h->predicted, run->num_samples * sizeof *h->predicted);
+            effect_simulate(run, w->gap.model, w->gap.start, h->use, h->num_uses, h->predicted);
+        }
+    }
+    effect_run_free(&fitted_run);
+    thinned_free(&fitted);
+}
+
+static void judge_all(work_t* w, const diagnose_options_t* options, double noise)
+{
+    w->hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *w->hypothesis);
+    hypothesis_t* plain = add(w, NULL, 0);
+    hypothesis_search(plain, &w->gap, false, 1);
+    hypothesis_judge(plain, &w->gap);
+    w->scale = scale_of(w, options, noise);
+    try_singles(w);
+    // A pair can win only where more is left above the noise than the second effect must gain.
+    if (mean_square(&w->hypothesis[best_of(w)]) > w->scale.noise + w->scale.further) {
+        try_pairs(w);
+    }
+}
+
 outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_options_t* options,
                    diagnosis_t* diagnosis)
 {
@@ -407,38 +459,37 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    effect_run_t run = effect_run_new(model, record);
     fast_plays_t* fast = fast_plays_new(model, options->start);
+    effect_run_t whole = effect_run_new(model, record);
+    whole.fast = fast;
+    double* difference = whole_gap(model, &whole, options->start, record->output);
+    thinned_t thinned = record_thin(record, most_judged);
+    effect_run_t run = effect_run_new(model, &thinned.record);
     run.fast = fast;
-    work_t w = {.gap = gap_new(model, &run, options->start, record->output),
+    work_t w = {.gap = gap_new(model, &run, options->start, thinned.record.output),
                 .calibration = options->calibration};
-    w.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *w.hypothesis);
-    hypothesis_t* plain = add(&w, NULL, 0);
-    hypothesis_search(plain, &w.gap, false, 1);
-    hypothesis_judge(plain, &w.gap);
-    w.scale = scale_of(&w, options);
-    try_singles(&w);
-    // A pair can win only where more is left above the noise than the second effect must gain.
-    if (mean_square(&w.hypothesis[best_of(&w)]) > w.scale.noise + w.scale.further) {
-        try_pairs(&w);
-    }
-    message_progress_done();
+    gap_leave_out(&w.gap, thinned.carried);
+    diagnosis->num_samples = record->num_samples;
+    diagnosis->num_judged = w.gap.num_judged;
+    judge_all(&w, options, white_noise(difference, record->num_samples));
     const size_t best = best_of(&w);
     w.evidence = fmin((double)run.num_samples / 20, most_evidence);
     describe_gap(&w, diagnosis);
     weigh(&w, best, diagnosis);
     conclude(&w, best, diagnosis);
     advise(&w, diagnosis);
-    double* difference = xmalloc(run.num_samples * sizeof *difference);
-    for (size_t t = 0; t < run.num_samples; t++) {
-        difference[t] = record->output[t] - plain->predicted[t];
+    if (thinned.carried != NULL) {
+        finish_on_whole(&w, &whole, &diagnosis->cause[0]);
     }
     diagnosis->num_regions =
-        where_find(&run, record->output, difference, diagnosis->noise, diagnosis->region);
-    free(difference);
+        where_find(&whole, record->output, difference, diagnosis->noise, diagnosis->region);
+    message_progress_done();
     diagnosis->hypothesis = w.hypothesis;
     diagnosis->num_hypotheses = w.count;
+    free(difference);
     effect_run_free(&run);
+    thinned_free(&thinned);
+    effect_run_free(&whole);
     fast_plays_free(fast);
     return OUTCOME_OK;
 }

@@ -25,6 +25,8 @@ typedef struct {
 } cause_t;
 
 typedef struct {
+    size_t num_samples; ///< of the record
+    size_t num_judged;  ///< that the causes were judged by: all, or those of its stretches (record_thin.h)
     double rmse, relative, noise, noise_floor, closable;
     size_t num_regions;
     region_t region[WHERE_MAX_REGIONS];

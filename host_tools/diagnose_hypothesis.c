@@ -10,10 +10,34 @@ enum { MAX_THETA = HYPOTHESIS_MAX_EFFECTS * EFFECT_MAX_PARAMETERS };
 gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output)
 {
     gap_t gap = {.model = model, .run = run, .start = start, .output = output};
+    gap.num_judged = run->num_samples;
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
         gap.block_end[b] = run->num_samples * (b + 1) / HYPOTHESIS_BLOCKS;
     }
     return gap;
+}
+
+bool gap_is_judged(const gap_t* gap, size_t sample)
+{
+    return gap->carried == NULL || !gap->carried[sample];
+}
+
+void gap_leave_out(gap_t* gap, const bool* carried)
+{
+    const size_t n = gap->run->num_samples;
+    gap->carried = carried;
+    gap->num_judged = 0;
+    for (size_t t = 0; t < n; t++) {
+        gap->num_judged += gap_is_judged(gap, t);
+    }
+    size_t end = 0;
+    size_t count = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        for (; end < n && count < gap->num_judged * (b + 1) / HYPOTHESIS_BLOCKS; end++) {
+            count += gap_is_judged(gap, end);
+        }
+        gap->block_end[b] = b + 1 < HYPOTHESIS_BLOCKS ? end : n;
+    }
 }
 
 size_t gap_block_of(const gap_t* gap, size_t sample)
@@ -156,7 +180,7 @@ static void residual_of(search_t* s, double* residual)
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
         const bool skip = is_held_out(s, b);
         for (; t < s->gap->block_end[b]; t++) {
-            residual[t] = skip ? 0 : s->simulated[t] - s->gap->output[t];
+            residual[t] = skip || !gap_is_judged(s->gap, t) ? 0 : s->simulated[t] - s->gap->output[t];
         }
     }
 }
@@ -176,10 +200,11 @@ static int minpack_residual(void* context, int m, int n, const double* theta, do
 static size_t count_fitted(const search_t* s)
 {
     size_t count = 0;
-    size_t begin = 0;
+    size_t t = 0;
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        count += is_held_out(s, b) ? 0 : s->gap->block_end[b] - begin;
-        begin = s->gap->block_end[b];
+        for (; t < s->gap->block_end[b]; t++) {
+            count += !is_held_out(s, b) && gap_is_judged(s->gap, t);
+        }
     }
     return count;
 }
@@ -208,6 +233,9 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
         for (size_t i = 0; i < n; i++) {
             from_theta(&s.free[i], theta[i]);
         }
+    }
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_normalise(&hypothesis->use[i]);
     }
     residual_of(&s, residual);
     double sum = 0;
@@ -264,7 +292,8 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
             double error = 0;
             for (; t < gap->block_end[b]; t++) {
-                error += (s.simulated[t] - gap->output[t]) * (s.simulated[t] - gap->output[t]);
+                const double e = gap_is_judged(gap, t) ? s.simulated[t] - gap->output[t] : 0;
+                error += e * e;
             }
             if (b % HYPOTHESIS_FOLDS == (size_t)fold) {
                 hypothesis->block_error[b] = error;
@@ -273,5 +302,5 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         }
         search_free(&s);
     }
-    hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->run->num_samples);
+    hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->num_judged);
 }

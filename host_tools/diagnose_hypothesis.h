@@ -14,11 +14,16 @@ typedef struct {
     const effect_run_t* run;
     start_t start;
     const double* output; ///< [run->num_samples] measured
+    const bool* carried;  ///< [run->num_samples] true: only there for the memory (record_thin.h), or NULL
+    size_t num_judged;    ///< samples that are not carried
     size_t
         block_end[HYPOTHESIS_BLOCKS]; ///< contiguous stretches; block b belongs to fold b % HYPOTHESIS_FOLDS
 } gap_t;
 
 gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output);
+/// Leaves the carried samples out of all judging; the blocks then hold equally many of the others.
+void gap_leave_out(gap_t* gap, const bool* carried);
+bool gap_is_judged(const gap_t* gap, size_t sample);
 size_t gap_block_of(const gap_t* gap, size_t sample);
 
 typedef struct {

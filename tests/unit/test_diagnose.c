@@ -1,4 +1,5 @@
 #include "diagnose.h"
+#include "effect_catalogue.h"
 #include "random.h"
 #include <math.h>
 #include <stdio.h>
@@ -171,6 +172,23 @@ static void test_stranger_is_unknown(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 15, diagnosis.region[0].to);
 }
 
+/// A search may end with creep's two time constants in either order; a model file takes only one.
+static void test_fitted_parameters_are_in_their_order(void)
+{
+    make_input(7);
+    run_plant(0, 0);
+    const record_t record = {
+        .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
+    effect_run_t run = effect_run_new(&model, &record);
+    const gap_t gap = gap_new(&model, &run, START_NEGATIVE_SATURATION, output);
+    const effect_use_t swapped = {.effect = &effect_creep_additional, .parameter = {0.1, 2, 0.1}};
+    hypothesis_t creep = hypothesis_of(&swapped, 1);
+    hypothesis_fit(&creep, &gap, -1, 2);
+    TEST_ASSERT_TRUE(creep.use[0].parameter[1] <= creep.use[0].parameter[2]);
+    TEST_ASSERT_NULL(creep.use[0].effect->fault(creep.use[0].parameter));
+    effect_run_free(&run);
+}
+
 static void test_records_without_excitation_are_refused(void)
 {
     make_input(6);
@@ -194,6 +212,7 @@ int main(void)
     RUN_TEST(test_column_is_named);
     RUN_TEST(test_two_effects_are_both_named);
     RUN_TEST(test_stranger_is_unknown);
+    RUN_TEST(test_fitted_parameters_are_in_their_order);
     RUN_TEST(test_records_without_excitation_are_refused);
     return UNITY_END();
 }
