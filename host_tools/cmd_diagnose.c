@@ -26,6 +26,7 @@ typedef struct {
     char* initial;
     char* columns;
     double sample_rate;
+    int threads; ///< 0: not given
     int json;
 } options_t;
 
@@ -272,7 +273,7 @@ static outcome_t run_on(const options_t* given, const model_t* model, const char
                                      .needs_input = true,
                                      .needs_output = true};
     record_t calibration = {0};
-    diagnose_options_t options = {0};
+    diagnose_options_t options = {.num_threads = (size_t)given->threads};
     outcome_t outcome = command_start(given->initial, model, &options.start);
     if (outcome == OUTCOME_OK) {
         outcome = calibrate(given, model, &calibration, &options);
@@ -293,6 +294,10 @@ static outcome_t check_options(const options_t* given)
 {
     if (given->chain_text != NULL) {
         return message_error(OUTCOME_USAGE, NOWHERE, "--chain takes three words, %s", CHAIN_ARGUMENTS);
+    }
+    if (given->threads < 0) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "--threads %d, expected at least 1 (0: one a processor)",
+                             given->threads);
     }
     if (given->report == NULL) {
         return OUTCOME_OK;
@@ -346,6 +351,8 @@ outcome_t cmd_diagnose(int argc, const char** argv)
          CHAIN_ARGUMENTS},
         {"initial", 0, POPT_ARG_STRING, &given.initial, 0, "the memory at the start",
          "negative-saturation|positive-saturation|demagnetised|model"},
+        {"threads", 0, POPT_ARG_INT, &given.threads, 0,
+         "for the searches (default: one a processor); the result is the same", "N"},
         RECORD_OPTIONS(&given.columns, &given.sample_rate),
         {"json", 0, POPT_ARG_NONE, &given.json, 0, "the result as JSON on stdout", NULL},
         POPT_TABLEEND};

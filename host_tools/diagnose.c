@@ -1,6 +1,8 @@
 #include "diagnose.h"
 
+#include "diagnose_check.h"
 #include "diagnose_structure.h"
+#include "parallel.h"
 #include "record_thin.h"
 #include "resample.h"
 #include <math.h>
@@ -8,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_SAMPLES = 200, MAX_SINGLES = 64, MAX_HYPOTHESES = 700 };
+enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 700 };
 enum {
     SINGLE_EVALUATIONS = 40,
     PAIR_EVALUATIONS = 24,
@@ -42,47 +44,9 @@ typedef struct {
     size_t count;
     hypothesis_t* hypothesis; ///< [MAX_HYPOTHESES], 0 is the plain model
     double evidence;          ///< independent pieces of evidence in the record
-    size_t num_singles;       ///< hypotheses 1 ... num_singles have one effect each
+    size_t num_threads;
+    size_t num_singles; ///< hypotheses 1 ... num_singles have one effect each
 } work_t;
-
-static outcome_t check_record(const model_t* model, const record_t* record)
-{
-    const location_t where = {.file = record->path};
-    if (record->num_samples < LEAST_SAMPLES) {
-        return message_error(OUTCOME_BAD_INPUT, where,
-                             "%zu samples are too few to diagnose, expected at least %d", record->num_samples,
-                             LEAST_SAMPLES);
-    }
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    double least = HUGE_VAL;
-    double largest = -HUGE_VAL;
-    double step = 0;
-    for (size_t t = 0; t < record->num_samples; t++) {
-        low = fmin(low, record->input[t]);
-        high = fmax(high, record->input[t]);
-        least = fmin(least, record->output[t]);
-        largest = fmax(largest, record->output[t]);
-        step = fmax(step, t > 0 && record->time != NULL ? record->time[t] - record->time[t - 1] : 0);
-    }
-    if (!(largest > least)) {
-        return message_error(OUTCOME_BAD_INPUT, where,
-                             "the output is %g throughout, expected one that answers the input", least);
-    }
-    if (!(high - low > 0.01 * (model->input_max - model->input_min))) {
-        return message_error(
-            OUTCOME_BAD_INPUT, where,
-            "the input stays within %g ... %g, expected excitation of at least 1 %% of the model's range",
-            low, high);
-    }
-    if (record->time != NULL && step > 0.1 * (record->time[record->num_samples - 1] - record->time[0])) {
-        return message_error(
-            OUTCOME_BAD_INPUT, where,
-            "the time has a gap of %g s, more than a tenth of the record, expected a continuous record",
-            step);
-    }
-    return OUTCOME_OK;
-}
 
 static double mean_square(const hypothesis_t* hypothesis)
 {
@@ -150,7 +114,7 @@ static bool guess_parameters(const work_t* w, const double* predicted, effect_us
     return true;
 }
 
-static void try_single(work_t* w, const effect_t* effect, const char* column)
+static void add_single(work_t* w, const effect_t* effect, const char* column)
 {
     if (w->count > MAX_SINGLES) {
         return;
@@ -163,7 +127,13 @@ static void try_single(work_t* w, const effect_t* effect, const char* column)
             use.reference = mean_of(w->calibration->auxiliary[c].value, w->calibration->num_samples);
         }
     }
-    hypothesis_t* hypothesis = add(w, &use, 1);
+    (void)add(w, &use, 1);
+}
+
+static void try_single(void* context, size_t index)
+{
+    const work_t* w = context;
+    hypothesis_t* hypothesis = &w->hypothesis[index + 1];
     const bool guessed = guess_parameters(w, w->hypothesis[0].predicted, &hypothesis->use[0]);
     hypothesis_search(hypothesis, &w->gap, guessed, SINGLE_EVALUATIONS);
     hypothesis_judge(hypothesis, &w->gap);
@@ -174,27 +144,20 @@ static void try_singles(work_t* w)
     const record_t* record = w->gap.run->record;
     for (size_t i = 0; i < effect_count(); i++) {
         const effect_t* effect = effect_at(i);
-        message_progress("diagnose", 0.4 * (double)i / (double)effect_count());
         if (!effect->needs_column) {
-            try_single(w, effect, "");
+            add_single(w, effect, "");
         }
         for (size_t c = 0; effect->needs_column && record != NULL && c < record->num_auxiliary; c++) {
-            try_single(w, effect, record->auxiliary[c].name);
+            add_single(w, effect, record->auxiliary[c].name);
         }
     }
     w->num_singles = w->count - 1;
+    parallel_for(w->num_singles, w->num_threads, try_single, w, (parallel_progress_t){"diagnose", 0, 0.4});
 }
 
 static bool same_effect(const effect_use_t* a, const effect_use_t* b)
 {
     return strcmp(a->effect->name, b->effect->name) == 0 && strcmp(a->column, b->column) == 0;
-}
-
-static int by_fit(const void* a, const void* b)
-{
-    const double x = ((const hypothesis_t*)a)->fit_rmse;
-    const double y = ((const hypothesis_t*)b)->fit_rmse;
-    return (x > y) - (x < y);
 }
 
 static int by_held_out(const void* a, const void* b)
@@ -224,42 +187,81 @@ static size_t leading_singles(const work_t* w, hypothesis_t* leaders)
     return count;
 }
 
-/// Every pair that has one of the leading singles in it, briefly; the best are then fitted from all starts
-/// and judged.
+/// Two leading singles and, once tried, the pair of them.
+typedef struct {
+    const hypothesis_t* first;
+    const hypothesis_t* second;
+    hypothesis_t fitted;
+} pair_t;
+
+typedef struct {
+    const work_t* w;
+    pair_t* pair;
+    hypothesis_t* refined; ///< [REFINED_PAIRS] in w, of the best pairs
+} pairs_t;
+
+static int by_fit(const void* a, const void* b)
+{
+    const double x = ((const pair_t*)a)->fitted.fit_rmse;
+    const double y = ((const pair_t*)b)->fitted.fit_rmse;
+    return (x > y) - (x < y);
+}
+
+/// Briefly.
+static void try_pair(void* context, size_t index)
+{
+    const work_t* w = ((const pairs_t*)context)->w;
+    pair_t* pair = &((const pairs_t*)context)->pair[index];
+    const effect_use_t uses[] = {pair->first->use[0], pair->second->use[0]};
+    pair->fitted = hypothesis_of(uses, 2);
+    hypothesis_fit(&pair->fitted, &w->gap, -1, PAIR_EVALUATIONS);
+    // The second effect from its start: beside the first it may be another size than alone.
+    hypothesis_t from_start = hypothesis_of(uses, 2);
+    hypothesis_set_start(&from_start, &w->gap, 0);
+    from_start.use[0] = uses[0];
+    (void)guess_parameters(w, pair->first->predicted, &from_start.use[1]);
+    hypothesis_fit(&from_start, &w->gap, -1, PAIR_EVALUATIONS);
+    pair->fitted = from_start.fit_rmse < pair->fitted.fit_rmse ? from_start : pair->fitted;
+}
+
+/// From all starts, and judged.
+static void refine_pair(void* context, size_t index)
+{
+    const pairs_t* pairs = context;
+    const work_t* w = pairs->w;
+    const hypothesis_t* brief = &pairs->pair[index].fitted;
+    hypothesis_t* hypothesis = &pairs->refined[index];
+    hypothesis_search(hypothesis, &w->gap, false, SINGLE_EVALUATIONS);
+    if (brief->fit_rmse < hypothesis->fit_rmse) {
+        memcpy(hypothesis->use, brief->use, sizeof hypothesis->use);
+        hypothesis_fit(hypothesis, &w->gap, -1, SINGLE_EVALUATIONS);
+        effect_simulate(w->gap.run, w->gap.model, w->gap.start, hypothesis->use, 2, hypothesis->predicted);
+    }
+    hypothesis_judge(hypothesis, &w->gap);
+}
+
+/// Every pair that has one of the leading singles in it; the best of them are refined.
 static void try_pairs(work_t* w)
 {
     hypothesis_t leader[MAX_SINGLES];
     const size_t singles = leading_singles(w, leader);
-    hypothesis_t* pair = xcalloc(singles * LEADING_SINGLES + 1, sizeof *pair);
+    pairs_t pairs = {.w = w, .pair = xcalloc(singles * LEADING_SINGLES + 1, sizeof *pairs.pair)};
     size_t count = 0;
     for (size_t i = 0; i < singles && i < LEADING_SINGLES; i++) {
-        message_progress("diagnose", 0.4 + 0.4 * (double)i / LEADING_SINGLES);
         for (size_t j = i + 1; j < singles; j++) {
-            const effect_use_t uses[] = {leader[i].use[0], leader[j].use[0]};
-            hypothesis_t from_singles = hypothesis_of(uses, 2);
-            hypothesis_fit(&from_singles, &w->gap, -1, PAIR_EVALUATIONS);
-            // The second effect from its start: beside the first it may be another size than alone.
-            hypothesis_t from_start = hypothesis_of(uses, 2);
-            hypothesis_set_start(&from_start, &w->gap, 0);
-            from_start.use[0] = uses[0];
-            (void)guess_parameters(w, leader[i].predicted, &from_start.use[1]);
-            hypothesis_fit(&from_start, &w->gap, -1, PAIR_EVALUATIONS);
-            pair[count++] = from_start.fit_rmse < from_singles.fit_rmse ? from_start : from_singles;
+            pairs.pair[count++] = (pair_t){.first = &leader[i], .second = &leader[j]};
         }
     }
-    qsort(pair, count, sizeof *pair, by_fit);
-    for (size_t k = 0; k < count && k < REFINED_PAIRS; k++) {
-        hypothesis_t* hypothesis = add(w, pair[k].use, 2);
-        hypothesis_search(hypothesis, &w->gap, false, SINGLE_EVALUATIONS);
-        if (pair[k].fit_rmse < hypothesis->fit_rmse) {
-            memcpy(hypothesis->use, pair[k].use, sizeof hypothesis->use);
-            hypothesis_fit(hypothesis, &w->gap, -1, SINGLE_EVALUATIONS);
-            effect_simulate(w->gap.run, w->gap.model, w->gap.start, hypothesis->use, 2,
-                            hypothesis->predicted);
-        }
-        hypothesis_judge(hypothesis, &w->gap);
+    parallel_for(count, w->num_threads, try_pair, &pairs, (parallel_progress_t){"diagnose", 0.4, 0.7});
+    qsort(pairs.pair, count, sizeof *pairs.pair, by_fit);
+    const size_t num_refined = count < REFINED_PAIRS ? count : REFINED_PAIRS;
+    pairs.refined = &w->hypothesis[w->count];
+    for (size_t k = 0; k < num_refined; k++) {
+        (void)add(w, pairs.pair[k].fitted.use, 2);
     }
-    free(pair);
+    parallel_for(num_refined, w->num_threads, refine_pair, &pairs,
+                 (parallel_progress_t){"diagnose", 0.7, 0.9});
+    free(pairs.pair);
 }
 
 static size_t best_of(const work_t* w)
@@ -455,7 +457,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
                    diagnosis_t* diagnosis)
 {
     *diagnosis = (diagnosis_t){0};
-    const outcome_t outcome = check_record(model, record);
+    const outcome_t outcome = diagnose_check(model, record);
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
@@ -467,7 +469,8 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     effect_run_t run = effect_run_new(model, &thinned.record);
     run.fast = fast;
     work_t w = {.gap = gap_new(model, &run, options->start, thinned.record.output),
-                .calibration = options->calibration};
+                .calibration = options->calibration,
+                .num_threads = options->num_threads > 0 ? options->num_threads : parallel_processors()};
     gap_leave_out(&w.gap, thinned.carried);
     diagnosis->num_samples = record->num_samples;
     diagnosis->num_judged = w.gap.num_judged;
@@ -478,6 +481,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     weigh(&w, best, diagnosis);
     conclude(&w, best, diagnosis);
     advise(&w, diagnosis);
+    message_progress("diagnose", 0.9);
     if (thinned.carried != NULL) {
         finish_on_whole(&w, &whole, &diagnosis->cause[0]);
     }

@@ -13,6 +13,7 @@ typedef struct {
         calibration_rmse; ///< the model's misfit on the record it was identified from [output], 0: not known
     double calibration_noise;    ///< that record's own noise [output], 0: not known
     const record_t* calibration; ///< that record, for the auxiliary columns' values then, or NULL
+    size_t num_threads;          ///< for the searches, which find the same on any number; 0: one a processor
 } diagnose_options_t;
 
 /// A candidate explanation as reported.
