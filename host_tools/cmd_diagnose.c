@@ -26,6 +26,7 @@ typedef struct {
     char* initial;
     char* columns;
     double sample_rate;
+    int threads; ///< 0: not given
     int json;
 } options_t;
 
@@ -33,6 +34,10 @@ static void print_report(const diagnosis_t* d, const model_t* model)
 {
     printf("gap: rmse %.6g %s, %.3g %% of the output's range; noise and known misfit account for %.6g\n",
            d->rmse, model->output_unit, 100 * d->relative, d->noise_floor);
+    if (d->num_judged < d->num_samples) {
+        printf("judged by %zu of %zu samples, in full-rate stretches spread over the record\n", d->num_judged,
+               d->num_samples);
+    }
     for (size_t i = 0; i < d->num_regions && i < 3 && d->closable > 0; i++) {
         char text[200];
         where_describe(&d->region[i], model->input_unit, model->output_unit, text, sizeof text);
@@ -268,7 +273,7 @@ static outcome_t run_on(const options_t* given, const model_t* model, const char
                                      .needs_input = true,
                                      .needs_output = true};
     record_t calibration = {0};
-    diagnose_options_t options = {0};
+    diagnose_options_t options = {.num_threads = (size_t)given->threads};
     outcome_t outcome = command_start(given->initial, model, &options.start);
     if (outcome == OUTCOME_OK) {
         outcome = calibrate(given, model, &calibration, &options);
@@ -289,6 +294,10 @@ static outcome_t check_options(const options_t* given)
 {
     if (given->chain_text != NULL) {
         return message_error(OUTCOME_USAGE, NOWHERE, "--chain takes three words, %s", CHAIN_ARGUMENTS);
+    }
+    if (given->threads < 0) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "--threads %d, expected at least 1 (0: one a processor)",
+                             given->threads);
     }
     if (given->report == NULL) {
         return OUTCOME_OK;
@@ -338,10 +347,12 @@ outcome_t cmd_diagnose(int argc, const char** argv)
         {"report", 0, POPT_ARG_STRING, &given.report, 0,
          "the diagnosis with plots, as one file (needs gnuplot)", "FILE.html"},
         {"chain", 0, POPT_ARG_STRING, &given.chain_text, 0,
-         "also the firmware's error budget on the record, from the full model to the header (f32)",
+         "also the firmware's error budget on the record, from the full model to the header",
          CHAIN_ARGUMENTS},
         {"initial", 0, POPT_ARG_STRING, &given.initial, 0, "the memory at the start",
          "negative-saturation|positive-saturation|demagnetised|model"},
+        {"threads", 0, POPT_ARG_INT, &given.threads, 0,
+         "for the searches (default: one a processor); the result is the same", "N"},
         RECORD_OPTIONS(&given.columns, &given.sample_rate),
         {"json", 0, POPT_ARG_NONE, &given.json, 0, "the result as JSON on stdout", NULL},
         POPT_TABLEEND};

@@ -4,9 +4,9 @@
 #include "input_file.h"
 #include "model_file.h"
 #include "output_file.h"
+#include "scalar.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct {
     char* output;
@@ -15,23 +15,16 @@ typedef struct {
     char* table_error;
 } options_t;
 
-typedef enum { SCALAR_F32, SCALAR_Q31, SCALAR_Q15, NUM_SCALARS } scalar_t;
-
 /// NUM_SCALARS for a name that is none.
-static scalar_t find_scalar(const options_t* options)
+static scalar_t chosen_scalar(const options_t* options)
 {
-    static const char* const name[NUM_SCALARS] = {"f32", "q31", "q15"};
-    scalar_t scalar = SCALAR_F32;
-    while (options->scalar != NULL && scalar < NUM_SCALARS && strcmp(options->scalar, name[scalar]) != 0) {
-        ++scalar;
-    }
-    return scalar;
+    return options->scalar == NULL ? SCALAR_F32 : scalar_find(options->scalar);
 }
 
 static outcome_t check_options(const options_t* options)
 {
-    if (find_scalar(options) == NUM_SCALARS) {
-        return message_error(OUTCOME_USAGE, NOWHERE, "--scalar \"%s\" is no scalar, expected f32, q31 or q15",
+    if (chosen_scalar(options) == NUM_SCALARS) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "--scalar \"%s\" is no scalar, expected " SCALAR_NAMES,
                              options->scalar);
     }
     if (options->symbol != NULL && !c_symbol_is_valid(options->symbol)) {
@@ -115,7 +108,7 @@ static outcome_t emit_float(const options_t* options, location_t from, const emi
 
 static outcome_t emit_fixed(const options_t* options, location_t from, const emission_t* emission)
 {
-    const quantized_bits_t bits = find_scalar(options) == SCALAR_Q31 ? QUANTIZED_Q31 : QUANTIZED_Q15;
+    const quantized_bits_t bits = chosen_scalar(options) == SCALAR_Q31 ? QUANTIZED_Q31 : QUANTIZED_Q15;
     quantized_t quantized;
     golden_q_t golden;
     const char* fault = quantize(emission->model, bits, emission->requested_table_error, &quantized);
@@ -147,8 +140,8 @@ static outcome_t emit_model(const options_t* options, const char* path, const mo
     }
     char* own_symbol = options->symbol == NULL ? c_symbol_from(model->name) : NULL;
     emission.symbol = options->symbol == NULL ? own_symbol : options->symbol;
-    outcome = find_scalar(options) == SCALAR_F32 ? emit_float(options, from, &emission)
-                                                 : emit_fixed(options, from, &emission);
+    outcome = chosen_scalar(options) == SCALAR_F32 ? emit_float(options, from, &emission)
+                                                   : emit_fixed(options, from, &emission);
     free(own_symbol);
     return outcome;
 }

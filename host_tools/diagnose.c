@@ -1,327 +1,48 @@
 #include "diagnose.h"
 
 #include "diagnose_body.h"
+#include "diagnose_check.h"
+#include "diagnose_grid.h"
+#include "diagnose_search.h"
 #include "diagnose_structure.h"
-#include "reference.h"
+#include "diagnose_verdict.h"
+#include "parallel.h"
+#include "record_thin.h"
+#include "resample.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_SAMPLES = 200, MAX_SINGLES = 64, MAX_HYPOTHESES = 700 };
-enum { SINGLE_EVALUATIONS = 40, PAIR_EVALUATIONS = 24, LEADING_SINGLES = 5, REFINED_PAIRS = 6 };
+enum { LAST_EVALUATIONS = 20 };
 
-/// Part of the gap's energy that one more effect beside another must gain: what the first one's own physics,
-/// a little other than the plant's, leaves is no second effect.
-static const double further_part = 3e-3;
-/// Independent stretches that a record counts for at most when hypotheses are weighed against each other.
-static const double most_evidence = 80;
-
-/// What the verdict is weighed with, in squares of output units.
-typedef struct {
-    double noise;   ///< the sensor's
-    double misfit;  ///< the model's own, as its calibration shows it
-    double penalty; ///< what the first effect must gain
-    double further; ///< what each further one must gain
-    double doubt;   ///< how far the misfit may favour a wrong effect
-} scale_t;
+/// Samples by which a long record is judged, and those that the verdict's parameters are then fitted to.
+static const size_t most_judged = 12000;
+static const size_t most_fitted = 1000000;
 
 typedef struct {
-    gap_t gap;
-    const record_t* calibration; ///< or NULL
+    const diagnose_options_t* options;
+    const record_t* record;
+    effect_run_t whole; ///< over the record
+    thinned_t thinned;
+    effect_run_t run; ///< over what is judged
     body_t body;
-    double* gpi;                         ///< [num_samples] the model alone
-    double gpi_error[HYPOTHESIS_BLOCKS]; ///< its sum of squares of each block
-    double gpi_rmse;
+    gap_t gap;
+    candidates_t candidates;
     scale_t scale;
-    size_t count;
-    hypothesis_t* hypothesis; ///< [MAX_HYPOTHESES], 0 is the plain model
-    double evidence;          ///< independent pieces of evidence in the record
-    size_t num_singles;       ///< hypotheses 1 ... num_singles have one effect each
+    grid_step_t grid; ///< that the output lies on and the calibration's does not
+    double plain_error[HYPOTHESIS_BLOCKS]; ///< of the model alone: sum of squares of each block
+    double plain_rmse;
 } work_t;
 
-static outcome_t check_record(const model_t* model, const record_t* record)
+/// The model alone with these effects, whatever body stood in for the judging.
+static void simulate_model(const work_t* w, const effect_run_t* run, const hypothesis_t* h, double* output)
 {
-    const location_t where = {.file = record->path};
-    if (record->num_samples < LEAST_SAMPLES) {
-        return message_error(OUTCOME_BAD_INPUT, where,
-                             "%zu samples are too few to diagnose, expected at least %d", record->num_samples,
-                             LEAST_SAMPLES);
-    }
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    double least = HUGE_VAL;
-    double largest = -HUGE_VAL;
-    double step = 0;
-    for (size_t t = 0; t < record->num_samples; t++) {
-        low = fmin(low, record->input[t]);
-        high = fmax(high, record->input[t]);
-        least = fmin(least, record->output[t]);
-        largest = fmax(largest, record->output[t]);
-        step = fmax(step, t > 0 && record->time != NULL ? record->time[t] - record->time[t - 1] : 0);
-    }
-    if (!(largest > least)) {
-        return message_error(OUTCOME_BAD_INPUT, where,
-                             "the output is %g throughout, expected one that answers the input", least);
-    }
-    if (!(high - low > 0.01 * (model->input_max - model->input_min))) {
-        return message_error(
-            OUTCOME_BAD_INPUT, where,
-            "the input stays within %g ... %g, expected excitation of at least 1 %% of the model's range",
-            low, high);
-    }
-    if (record->time != NULL && step > 0.1 * (record->time[record->num_samples - 1] - record->time[0])) {
-        return message_error(
-            OUTCOME_BAD_INPUT, where,
-            "the time has a gap of %g s, more than a tenth of the record, expected a continuous record",
-            step);
-    }
-    return OUTCOME_OK;
-}
-
-static double mean_square(const hypothesis_t* hypothesis)
-{
-    return hypothesis->held_out_rmse * hypothesis->held_out_rmse;
-}
-
-static double score(const work_t* w, const hypothesis_t* hypothesis)
-{
-    const size_t uses = hypothesis->num_uses;
-    return mean_square(hypothesis) +
-           (uses > 0 ? w->scale.penalty + w->scale.further * (double)(uses - 1) : 0);
-}
-
-static scale_t scale_of(const work_t* w, const diagnose_options_t* options)
-{
-    const size_t n = w->gap.run->num_samples;
-    double* difference = xmalloc(n * sizeof *difference);
-    for (size_t t = 0; t < n; t++) {
-        difference[t] = w->gap.output[t] - w->hypothesis[0].predicted[t];
-    }
-    const double here = white_noise(difference, n);
-    free(difference);
-    const double noise = options->calibration_noise > 0 ? fmin(here, options->calibration_noise) : here;
-    const double calibration = w->body.misfit * w->body.misfit;
-    scale_t scale = {.noise = noise * noise};
-    scale.misfit = fmax(calibration - scale.noise, 0);
-    scale.penalty = 0.02 * scale.noise + 2 * scale.misfit;
-    scale.further = scale.penalty + further_part * mean_square(&w->hypothesis[0]);
-    scale.doubt = 0.01 * scale.noise + 0.6 * scale.misfit;
-    return scale;
-}
-
-static double floor_square(const work_t* w)
-{
-    // A body that is no play model misfits more on other work than on its calibration (THEORY section 6).
-    return w->scale.noise + 2 * w->scale.misfit;
-}
-
-static hypothesis_t* add(work_t* w, const effect_use_t* uses, size_t num_uses)
-{
-    hypothesis_t* hypothesis = &w->hypothesis[w->count++];
-    *hypothesis = hypothesis_of(uses, num_uses);
-    return hypothesis;
-}
-
-static double mean_of(const double* values, size_t count)
-{
-    double mean = 0;
-    for (size_t i = 0; i < count; i++) {
-        mean += values[i] / (double)count;
-    }
-    return mean;
-}
-
-/// Parameters that no gradient leads to: a disturbance's frequency, from the spectrum of what `predicted`
-/// leaves.
-static bool guess_parameters(const work_t* w, const double* predicted, effect_use_t* use)
-{
-    if (strcmp(use->effect->name, "periodic_disturbance") != 0) {
-        return false;
-    }
-    const effect_run_t* run = w->gap.run;
-    double* difference = xmalloc(run->num_samples * sizeof *difference);
-    for (size_t t = 0; t < run->num_samples; t++) {
-        difference[t] = w->gap.output[t] - predicted[t];
-    }
-    const sinusoid_t peak = strongest_sinusoid(run->time, difference, run->num_samples);
-    free(difference);
-    const double guess[] = {peak.frequency, peak.sine, peak.cosine};
-    memcpy(use->parameter, guess, sizeof guess);
-    return true;
-}
-
-static void try_single(work_t* w, const effect_t* effect, const char* column)
-{
-    if (w->count > MAX_SINGLES) {
-        return;
-    }
-    effect_use_t use = {.effect = effect};
-    snprintf(use.column, sizeof use.column, "%s", column);
-    for (size_t c = 0; w->calibration != NULL && c < w->calibration->num_auxiliary; c++) {
-        if (strcmp(w->calibration->auxiliary[c].name, column) == 0) {
-            use.has_reference = true;
-            use.reference = mean_of(w->calibration->auxiliary[c].value, w->calibration->num_samples);
-        }
-    }
-    hypothesis_t* hypothesis = add(w, &use, 1);
-    const bool guessed = guess_parameters(w, w->hypothesis[0].predicted, &hypothesis->use[0]);
-    hypothesis_search(hypothesis, &w->gap, guessed, SINGLE_EVALUATIONS);
-    hypothesis_judge(hypothesis, &w->gap);
-}
-
-static void try_singles(work_t* w)
-{
-    const record_t* record = w->gap.run->record;
-    for (size_t i = 0; i < effect_count(); i++) {
-        const effect_t* effect = effect_at(i);
-        message_progress("diagnose", 0.4 * (double)i / (double)effect_count());
-        if (!effect->needs_column) {
-            try_single(w, effect, "");
-        }
-        for (size_t c = 0; effect->needs_column && record != NULL && c < record->num_auxiliary; c++) {
-            try_single(w, effect, record->auxiliary[c].name);
-        }
-    }
-    w->num_singles = w->count - 1;
-}
-
-static bool same_effect(const effect_use_t* a, const effect_use_t* b)
-{
-    return strcmp(a->effect->name, b->effect->name) == 0 && strcmp(a->column, b->column) == 0;
-}
-
-static int by_fit(const void* a, const void* b)
-{
-    const double x = ((const hypothesis_t*)a)->fit_rmse;
-    const double y = ((const hypothesis_t*)b)->fit_rmse;
-    return (x > y) - (x < y);
-}
-
-static int by_held_out(const void* a, const void* b)
-{
-    const double x = ((const hypothesis_t*)a)->held_out_rmse;
-    const double y = ((const hypothesis_t*)b)->held_out_rmse;
-    return (x > y) - (x < y);
-}
-
-/// The best mechanism of each name, best first: leaders[] of the hypotheses with one effect; returns how
-/// many.
-static size_t leading_singles(const work_t* w, hypothesis_t* leaders)
-{
-    size_t count = 0;
-    for (size_t i = 1; i <= w->num_singles; i++) {
-        size_t k = 0;
-        while (k < count && !hypothesis_same_names(&leaders[k], &w->hypothesis[i])) {
-            k++;
-        }
-        if (k == count) {
-            leaders[count++] = w->hypothesis[i];
-        } else if (w->hypothesis[i].held_out_rmse < leaders[k].held_out_rmse) {
-            leaders[k] = w->hypothesis[i];
-        }
-    }
-    qsort(leaders, count, sizeof *leaders, by_held_out);
-    return count;
-}
-
-/// Every pair that has one of the leading singles in it, briefly; the best are then fitted from all starts
-/// and judged.
-static void try_pairs(work_t* w)
-{
-    hypothesis_t leader[MAX_SINGLES];
-    const size_t singles = leading_singles(w, leader);
-    hypothesis_t* pair = xcalloc(singles * LEADING_SINGLES + 1, sizeof *pair);
-    size_t count = 0;
-    for (size_t i = 0; i < singles && i < LEADING_SINGLES; i++) {
-        message_progress("diagnose", 0.4 + 0.4 * (double)i / LEADING_SINGLES);
-        for (size_t j = i + 1; j < singles; j++) {
-            const effect_use_t uses[] = {leader[i].use[0], leader[j].use[0]};
-            hypothesis_t from_singles = hypothesis_of(uses, 2);
-            hypothesis_fit(&from_singles, &w->gap, -1, PAIR_EVALUATIONS);
-            // The second effect from its start: beside the first it may be another size than alone.
-            hypothesis_t from_start = hypothesis_of(uses, 2);
-            hypothesis_set_start(&from_start, &w->gap, 0);
-            from_start.use[0] = uses[0];
-            (void)guess_parameters(w, leader[i].predicted, &from_start.use[1]);
-            hypothesis_fit(&from_start, &w->gap, -1, PAIR_EVALUATIONS);
-            pair[count++] = from_start.fit_rmse < from_singles.fit_rmse ? from_start : from_singles;
-        }
-    }
-    qsort(pair, count, sizeof *pair, by_fit);
-    for (size_t k = 0; k < count && k < REFINED_PAIRS; k++) {
-        hypothesis_t* hypothesis = add(w, pair[k].use, 2);
-        hypothesis_search(hypothesis, &w->gap, false, SINGLE_EVALUATIONS);
-        if (pair[k].fit_rmse < hypothesis->fit_rmse) {
-            memcpy(hypothesis->use, pair[k].use, sizeof hypothesis->use);
-            hypothesis_fit(hypothesis, &w->gap, -1, SINGLE_EVALUATIONS);
-            hypothesis_predict(hypothesis, &w->gap);
-        }
-        hypothesis_judge(hypothesis, &w->gap);
-    }
-    free(pair);
-}
-
-static size_t best_of(const work_t* w)
-{
-    size_t best = 0;
-    for (size_t i = 1; i < w->count; i++) {
-        best = score(w, &w->hypothesis[i]) < score(w, &w->hypothesis[best]) ? i : best;
-    }
-    return best;
-}
-
-static bool contains(const hypothesis_t* large, const hypothesis_t* small)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < small->num_uses; i++) {
-        for (size_t j = 0; j < large->num_uses; j++) {
-            found += same_effect(&small->use[i], &large->use[j]);
-        }
-    }
-    return large->num_uses > small->num_uses && found == small->num_uses;
-}
-
-/// How far hypothesis h trails the best, in standard deviations: the logarithm of the scores' ratio over what
-/// stretches and misfit leave in doubt, for as many independent pieces of evidence as the residual's
-/// correlation leaves.
-static double trailing(const work_t* w, const hypothesis_t* h, const hypothesis_t* best)
-{
-    const double ratio = (score(w, h) + w->scale.doubt) / (score(w, best) + w->scale.doubt);
-    return sqrt(fmax(w->evidence * log(ratio), 0));
-}
-
-static double rms_distance(const double* a, const double* b, size_t n)
-{
-    double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        sum += (a[t] - b[t]) * (a[t] - b[t]);
-    }
-    return sqrt(sum / (double)n);
-}
-
-/// What the model with these effects leaves of each block. Where another body stood in for the judging, the fit's
-/// parameters are put into the model that the user has.
-static void remaining_error(const work_t* w, const hypothesis_t* h, double* block_error)
-{
-    memcpy(block_error, h->block_error, HYPOTHESIS_BLOCKS * sizeof *block_error);
-    if (!w->body.is_duhem && w->body.correction == NULL) {
-        return;
-    }
-    effect_run_t run = *w->gap.run;
-    run.body = NULL;
-    run.correction = NULL;
-    double* predicted = xmalloc(run.num_samples * sizeof *predicted);
-    effect_simulate(&run, w->gap.model, w->gap.start, h->use, h->num_uses, predicted);
-    size_t t = 0;
-    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        block_error[b] = 0;
-        for (; t < w->gap.block_end[b]; t++) {
-            block_error[b] += (predicted[t] - w->gap.output[t]) * (predicted[t] - w->gap.output[t]);
-        }
-    }
-    free(predicted);
+    effect_run_t alone = *run;
+    alone.body = NULL;
+    alone.correction = NULL;
+    effect_simulate(&alone, w->gap.model, w->gap.start, h->use, h->num_uses, output);
 }
 
 static double sum_of(const double* values, size_t count)
@@ -333,96 +54,36 @@ static double sum_of(const double* values, size_t count)
     return sum;
 }
 
-/// Shrink with its 90 % interval over resampled stretches.
+/// What the model with these effects leaves of each block.
+static void block_errors(const work_t* w, const hypothesis_t* h, double* error)
+{
+    double* predicted = xmalloc(w->run.num_samples * sizeof *predicted);
+    simulate_model(w, &w->run, h, predicted);
+    size_t t = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        error[b] = 0;
+        for (; t < w->gap.block_end[b]; t++) {
+            const double e = gap_is_judged(&w->gap, t) ? predicted[t] - w->gap.output[t] : 0;
+            error[b] += e * e;
+        }
+    }
+    free(predicted);
+}
+
+/// Shrink with its 90 % interval over resampled stretches. Where the model's own plays were judged, what is left was
+/// held out; another body's parameters are put into the model that the user has.
 static void set_shrink(const work_t* w, cause_t* cause)
 {
-    enum { RESAMPLES = 400 };
-    double shrink[RESAMPLES];
     double left[HYPOTHESIS_BLOCKS];
-    unsigned long long seed = 20150757;
-    remaining_error(w, cause->hypothesis, left);
-    for (size_t r = 0; r < RESAMPLES; r++) {
-        double before = 0;
-        double after = 0;
-        for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-            seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-            const size_t drawn = (size_t)((seed >> 33) % HYPOTHESIS_BLOCKS);
-            before += w->gpi_error[drawn];
-            after += left[drawn];
-        }
-        shrink[r] = before > 0 ? 1 - sqrt(after / before) : 0;
-        for (size_t k = r; k > 0 && shrink[k] < shrink[k - 1]; k--) {
-            const double swap = shrink[k];
-            shrink[k] = shrink[k - 1];
-            shrink[k - 1] = swap;
-        }
+    memcpy(left, cause->hypothesis->block_error, sizeof left);
+    if (w->run.body != NULL || w->run.correction != NULL) {
+        block_errors(w, cause->hypothesis, left);
     }
-    cause->rmse_after = sqrt(sum_of(left, HYPOTHESIS_BLOCKS) / (double)w->gap.run->num_samples);
-    cause->shrink = 1 - cause->rmse_after / w->gpi_rmse;
-    cause->shrink_low = fmin(shrink[RESAMPLES / 20], cause->shrink);
-    cause->shrink_high = fmax(shrink[RESAMPLES - 1 - RESAMPLES / 20], cause->shrink);
-}
-
-static int by_probability(const void* a, const void* b)
-{
-    const double x = ((const cause_t*)a)->probability;
-    const double y = ((const cause_t*)b)->probability;
-    return (x < y) - (x > y);
-}
-
-/// One cause for each set of names, the better mechanism's; weight exp(-z^2 / 2) by how far it trails the
-/// best.
-static void weigh(work_t* w, size_t best, diagnosis_t* d)
-{
-    const hypothesis_t* leader = &w->hypothesis[best];
-    d->cause = xcalloc(w->count, sizeof *d->cause);
-    double total = 0;
-    for (size_t i = 0; i < w->count; i++) {
-        const hypothesis_t* h = &w->hypothesis[i];
-        bool shadowed = i != best && (contains(h, leader) || !isfinite(h->held_out_rmse));
-        for (size_t k = 0; k < w->count && !shadowed; k++) {
-            shadowed = k != i && hypothesis_same_names(h, &w->hypothesis[k]) &&
-                       (score(w, &w->hypothesis[k]) < score(w, h) ||
-                        (k < i && score(w, &w->hypothesis[k]) <= score(w, h)));
-        }
-        if (shadowed) {
-            continue;
-        }
-        const double z = i == best ? 0 : fmax(trailing(w, h, leader), 0);
-        cause_t* cause = &d->cause[d->num_causes++];
-        *cause = (cause_t){.hypothesis = h, .probability = exp(-0.5 * z * z)};
-        cause->closeness = rms_distance(h->predicted, leader->predicted, w->gap.run->num_samples);
-        total += cause->probability;
-        set_shrink(w, cause);
-    }
-    for (size_t k = 0; k < d->num_causes; k++) {
-        d->cause[k].probability /= total;
-    }
-    qsort(d->cause, d->num_causes, sizeof *d->cause, by_probability);
-}
-
-static void conclude(work_t* w, size_t best, diagnosis_t* d)
-{
-    const size_t n = w->gap.run->num_samples;
-    const hypothesis_t* plain = &w->hypothesis[0];
-    const hypothesis_t* leader = &w->hypothesis[best];
-    const double floor = floor_square(w);
-    const double above = mean_square(plain) - floor;
-    const double left = above > 0 ? (mean_square(leader) - floor) / above : 0;
-    double* residual = xmalloc(n * sizeof *residual);
-    for (size_t t = 0; t < n; t++) {
-        residual[t] = w->gap.output[t] - leader->predicted[t];
-    }
-    d->structure = structure_found(&w->gap, leader->predicted, residual);
-    free(residual);
-    d->is_unknown = mean_square(leader) > 1.5 * floor && left > 0.15 && (left > 0.4 || d->structure > 0.3);
-    d->is_none = best == 0 && !d->is_unknown;
-    for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
-        if (d->cause[k].probability > 0.2 * d->cause[0].probability && !d->is_unknown) {
-            d->indistinguishable[d->num_indistinguishable++] = k;
-        }
-    }
-    d->confident = d->is_unknown ? left > 0.6 : d->cause[0].probability >= 0.8 && !(left > 0.1 && left < 0.3);
+    const interval_t part = resample_ratio(left, w->plain_error, HYPOTHESIS_BLOCKS, 1);
+    cause->rmse_after = sqrt(sum_of(left, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
+    cause->shrink = 1 - cause->rmse_after / w->plain_rmse;
+    cause->shrink_low = fmin(1 - sqrt(part.high), cause->shrink);
+    cause->shrink_high = fmax(1 - sqrt(part.low), cause->shrink);
 }
 
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
@@ -438,103 +99,195 @@ static void advise(const work_t* w, diagnosis_t* d)
              d->next.what, d->next.separation, d->noise_floor);
 }
 
-static void describe_gap(const work_t* w, diagnosis_t* d)
+/// The gap of the model over the whole record, allocated.
+static double* whole_gap(const work_t* w)
 {
-    double square = floor_square(w);
-    const size_t n = w->gap.run->num_samples;
-    double* body = xmalloc(n * sizeof *body);
-    effect_simulate(w->gap.run, w->gap.model, w->gap.start, NULL, 0, body);
+    const size_t n = w->whole.num_samples;
+    const hypothesis_t none = {0};
+    double* difference = xmalloc(n * sizeof *difference);
+    simulate_model(w, &w->whole, &none, difference);
     for (size_t t = 0; t < n; t++) {
-        square += (body[t] - w->gpi[t]) * (body[t] - w->gpi[t]) / (double)n;
+        difference[t] = w->record->output[t] - difference[t];
+    }
+    return difference;
+}
+
+/// Mean square of what the body adds to the model over the judged samples.
+static double correction_of(const work_t* w)
+{
+    if (w->run.body == NULL && w->run.correction == NULL) {
+        return 0;
+    }
+    const size_t n = w->run.num_samples;
+    const hypothesis_t none = {0};
+    double* body = xmalloc(n * sizeof *body);
+    double* model = xmalloc(n * sizeof *model);
+    effect_simulate(&w->run, w->gap.model, w->gap.start, NULL, 0, body);
+    simulate_model(w, &w->run, &none, model);
+    double sum = 0;
+    for (size_t t = 0; t < n; t++) {
+        sum += (body[t] - model[t]) * (body[t] - model[t]) / (double)n;
     }
     free(body);
-    const double floor = sqrt(square);
-    d->rmse = w->gpi_rmse;
+    free(model);
+    return sum;
+}
+
+static void describe_gap(const work_t* w, diagnosis_t* d)
+{
+    const double correction = w->run.body != NULL ? 1 : 0;
+    const double floor = sqrt(w->scale.floor + correction * correction_of(w));
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
-    for (size_t t = 0; t < w->gap.run->num_samples; t++) {
+    for (size_t t = 0; t < w->run.num_samples; t++) {
         low = fmin(low, w->gap.output[t]);
         high = fmax(high, w->gap.output[t]);
     }
+    d->num_samples = w->record->num_samples;
+    d->num_judged = w->gap.num_judged;
+    d->rmse = w->plain_rmse;
     d->relative = d->rmse / (high - low);
     d->noise = sqrt(w->scale.noise);
     d->noise_floor = floor;
     d->closable = fmax(0, 1 - floor / d->rmse);
 }
 
-/// The model alone, whose gap it is.
-static void set_gpi(work_t* w)
+/// The verdict's parameters by all samples of a thinned record (up to most_fitted).
+static void fit_on_whole(const work_t* w, const cause_t* verdict)
 {
-    const size_t n = w->gap.run->num_samples;
-    w->gpi = xmalloc(n * sizeof *w->gpi);
-    reference_run(w->gap.model, w->gap.start, w->gap.run->input, n, w->gpi);
-    for (size_t t = 0; t < n; t++) {
-        const double error = w->gpi[t] - w->gap.output[t];
-        w->gpi_error[gap_block_of(&w->gap, t)] += error * error;
+    const nuisance_t nothing = {0};
+    thinned_t fitted = record_thin(w->record, most_fitted);
+    effect_run_t run = effect_run_new(w->gap.model, &fitted.record);
+    run.fast = w->run.fast;
+    run.body = w->run.body;
+    gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.record.output, fitted.carried, &nothing,
+                        w->gap.filter[0].variance);
+    for (size_t i = 1; i < w->candidates.count; i++) {
+        hypothesis_t* h = &w->candidates.hypothesis[i];
+        if (h == verdict->hypothesis) {
+            hypothesis_fit(h, &gap, -1, LAST_EVALUATIONS);
+        }
     }
-    w->gpi_rmse = sqrt(sum_of(w->gpi_error, HYPOTHESIS_BLOCKS) / (double)n);
+    gap_free(&gap);
+    effect_run_free(&run);
+    thinned_free(&fitted);
+}
+
+static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
+{
+    const diagnose_options_t* options = w->options;
+    w->whole = effect_run_new(model, w->record);
+    w->whole.fast = fast;
+    w->thinned = record_thin(w->record, most_judged);
+    w->run = effect_run_new(model, &w->thinned.record);
+    w->run.fast = fast;
+    w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
+    if (options->calibration != NULL) {
+        w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
+                            options->calibration_noise, &w->thinned.record);
+        w->run.body = w->body.is_duhem ? &w->body.duhem : NULL;
+        w->run.correction = w->body.correction;
+    }
+    w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried, &w->body.nuisance,
+                     fmax(w->body.misfit * w->body.misfit, DBL_MIN));
+    const hypothesis_t none = {0};
+    block_errors(w, &none, w->plain_error);
+    w->plain_rmse = sqrt(sum_of(w->plain_error, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
+}
+
+/// A converter's steps that can be told from noise and that the bench did not have are a fact, whatever else acts.
+static void find_grid(work_t* w, double noise)
+{
+    const record_t* bench = w->options->calibration;
+    const grid_step_t found = grid_step_of(w->record->output, w->record->num_samples);
+    const grid_step_t known =
+        bench != NULL ? grid_step_of(bench->output, bench->num_samples) : (grid_step_t){0};
+    if (found.step > noise && known.step < 0.5 * found.step) {
+        w->grid = found;
+        w->scale.floor += found.step * found.step / 12;
+    }
+}
+
+/// Every hypothesis then has the converter in it.
+static void add_grid(work_t* w)
+{
+    for (size_t i = 0; i < effect_count(); i++) {
+        if (strcmp(effect_at(i)->name, "quantization") != 0) {
+            continue;
+        }
+        const effect_use_t use = {.effect = effect_at(i), .parameter = {w->grid.step, w->grid.offset}};
+        for (size_t k = 0; k < w->candidates.count; k++) {
+            hypothesis_t* h = &w->candidates.hypothesis[k];
+            if (h->num_uses < HYPOTHESIS_MAX_EFFECTS) {
+                h->use[h->num_uses++] = use;
+            }
+        }
+    }
+}
+
+/// Searches until one more effect cannot be worth its price.
+static void search(work_t* w, double noise)
+{
+    candidates_t* c = &w->candidates;
+    *c = candidates_new(&w->gap, w->options->calibration,
+                        w->options->num_threads > 0 ? w->options->num_threads : parallel_processors());
+    w->scale = scale_new(noise * noise, w->body.misfit * w->body.misfit, correction_of(w),
+                         hypothesis_mean_square(&c->hypothesis[0]));
+    find_grid(w, noise);
+    candidates_add_singles(c);
+    const double worth = 0.7 * w->scale.grain + w->scale.floor;
+    if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->scale, c)]) > worth) {
+        candidates_add_pairs(c);
+        const hypothesis_t* best = &c->hypothesis[verdict_best(&w->scale, c)];
+        if (best->num_uses == 2 && hypothesis_mean_square(best) > worth) {
+            candidates_add_triples(c);
+        }
+    }
+    if (w->grid.step > 0) {
+        add_grid(w);
+    }
 }
 
 outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_options_t* options,
-                   diagnosis_t* diagnosis)
+                   diagnosis_t* d)
 {
-    *diagnosis = (diagnosis_t){0};
-    const outcome_t outcome = check_record(model, record);
+    *d = (diagnosis_t){0};
+    const outcome_t outcome = diagnose_check(model, record);
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    effect_run_t run = effect_run_new(model, record);
     fast_plays_t* fast = fast_plays_new(model, options->start);
-    run.fast = fast;
-    work_t w = {.calibration = options->calibration,
-                .body = {.misfit = options->calibration_rmse, .noise = options->calibration_noise}};
-    if (options->calibration != NULL) {
-        w.body = body_find(model, options->start, options->calibration, options->calibration_rmse,
-                           options->calibration_noise, record);
-        run.body = w.body.is_duhem ? &w.body.duhem : NULL;
-        run.correction = w.body.correction;
+    work_t w = {.options = options, .record = record};
+    prepare(&w, model, fast);
+    double* difference = whole_gap(&w);
+    const double here = white_noise(difference, record->num_samples);
+    const double noise = options->calibration_noise > 0 ? fmin(here, options->calibration_noise) : here;
+    search(&w, noise);
+    describe_gap(&w, d);
+    verdict_find(&w.scale, &w.candidates, d);
+    for (size_t k = 0; k < d->num_causes; k++) {
+        set_shrink(&w, &d->cause[k]);
     }
-    w.gap = gap_new(model, &run, options->start, record->output, &w.body.nuisance,
-                    fmax(w.body.misfit * w.body.misfit, DBL_MIN));
-    set_gpi(&w);
-    w.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *w.hypothesis);
-    hypothesis_t* plain = add(&w, NULL, 0);
-    hypothesis_search(plain, &w.gap, false, 1);
-    hypothesis_judge(plain, &w.gap);
-    w.scale = scale_of(&w, options);
-    try_singles(&w);
-    // A pair can win only where more is left above the noise than the second effect must gain.
-    if (mean_square(&w.hypothesis[best_of(&w)]) > w.scale.noise + w.scale.further) {
-        try_pairs(&w);
+    advise(&w, d);
+    message_progress("diagnose", 0.9);
+    if (w.thinned.carried != NULL) {
+        fit_on_whole(&w, &d->cause[0]);
     }
+    d->before = xmalloc(record->num_samples * sizeof *d->before);
+    d->after = xmalloc(record->num_samples * sizeof *d->after);
+    simulate_model(&w, &w.whole, &w.candidates.hypothesis[0], d->before);
+    simulate_model(&w, &w.whole, d->cause[0].hypothesis, d->after);
+    d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
     message_progress_done();
-    const size_t best = best_of(&w);
-    w.evidence = fmin((double)run.num_samples / 20, most_evidence);
-    describe_gap(&w, diagnosis);
-    weigh(&w, best, diagnosis);
-    conclude(&w, best, diagnosis);
-    advise(&w, diagnosis);
-    double* difference = xmalloc(run.num_samples * sizeof *difference);
-    for (size_t t = 0; t < run.num_samples; t++) {
-        difference[t] = record->output[t] - plain->predicted[t];
-    }
-    diagnosis->num_regions =
-        where_find(&run, record->output, difference, diagnosis->noise, diagnosis->region);
+    d->hypothesis = w.candidates.hypothesis;
+    d->num_hypotheses = w.candidates.count;
     free(difference);
-    if (getenv("HD")) {
-        fprintf(stderr, "duhem %d k %zu noise2 1 calmse %.3f misfit2 %.3f gap2 %.3f | ", w.body.is_duhem, w.body.nuisance.count, w.body.misfit*w.body.misfit/w.scale.noise, w.scale.misfit/w.scale.noise, w.gpi_rmse*w.gpi_rmse/w.scale.noise);
-        hypothesis_t h[MAX_HYPOTHESES]; memcpy(h, w.hypothesis, w.count*sizeof *h); qsort(h, w.count, sizeof *h, by_held_out);
-        fprintf(stderr, "none %.3f ", mean_square(w.hypothesis)/w.scale.noise);
-        for (size_t i=0;i<w.count && i<14;i++) { for (size_t k=0;k<h[i].num_uses;k++) fprintf(stderr,"%s%.9s",k?"+":"",h[i].use[k].effect->name); fprintf(stderr," %.3f ", mean_square(&h[i])/w.scale.noise);}
-        fprintf(stderr, "\n");
-    }
-    diagnosis->hypothesis = w.hypothesis;
-    diagnosis->num_hypotheses = w.count;
-    effect_run_free(&run);
-    fast_plays_free(fast);
     gap_free(&w.gap);
     body_free(&w.body);
-    free(w.gpi);
+    effect_run_free(&w.run);
+    thinned_free(&w.thinned);
+    effect_run_free(&w.whole);
+    fast_plays_free(fast);
     return OUTCOME_OK;
 }
 
@@ -545,6 +298,8 @@ void diagnosis_free(diagnosis_t* diagnosis)
     }
     free(diagnosis->hypothesis);
     free(diagnosis->cause);
+    free(diagnosis->before);
+    free(diagnosis->after);
     next_input_free(&diagnosis->next);
     *diagnosis = (diagnosis_t){0};
 }

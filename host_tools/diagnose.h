@@ -13,6 +13,7 @@ typedef struct {
         calibration_rmse; ///< the model's misfit on the record it was identified from [output], 0: not known
     double calibration_noise;    ///< that record's own noise [output], 0: not known
     const record_t* calibration; ///< that record, for the auxiliary columns' values then, or NULL
+    size_t num_threads;          ///< for the searches, which find the same on any number; 0: one a processor
 } diagnose_options_t;
 
 /// A candidate explanation as reported.
@@ -25,6 +26,8 @@ typedef struct {
 } cause_t;
 
 typedef struct {
+    size_t num_samples; ///< of the record
+    size_t num_judged;  ///< that the causes were judged by: all, or those of its stretches (record_thin.h)
     double rmse, relative, noise, noise_floor, closable;
     size_t num_regions;
     region_t region[WHERE_MAX_REGIONS];
@@ -32,6 +35,8 @@ typedef struct {
     cause_t* cause; ///< [num_causes] best first
     size_t num_hypotheses;
     hypothesis_t* hypothesis; ///< owns what the causes point to
+    double* before;           ///< [num_samples] the model's output
+    double* after;            ///< [num_samples] with the likeliest cause's effects
     bool is_unknown;          ///< the verdict is ["unknown"]
     bool is_none;             ///< the verdict is []
     bool confident;

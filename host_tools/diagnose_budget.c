@@ -1,9 +1,7 @@
 #include "diagnose_budget.h"
 
-#include "hyst/hyst_f32.h"
-#include "input_file.h"
+#include "firmware.h"
 #include "reference.h"
-#include "tabulate.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,89 +43,24 @@ static double mean_square_difference(const double* a, const double* b, size_t n)
     return sum / (double)n;
 }
 
-static void tabulate_curve(curve_t* curve, const hyst_f32_model_t* stored)
-{
-    const size_t count = stored->num_knots;
-    double* x = xmalloc(count * sizeof *x);
-    double* y = xmalloc(count * sizeof *y);
-    for (size_t k = 0; k < count; k++) {
-        x[k] = (double)stored->knot[k].input;
-        y[k] = curve_value(curve, x[k]);
-    }
-    curve_free(curve);
-    *curve = curve_table(x, y, count);
-    free(x);
-    free(y);
-}
-
 void budget_describe_cross(const budget_t* budget, char* text, size_t size)
 {
     (void)snprintf(text, size, "what the parts add or cancel between them, most of it %s with %s (%+.3f %%)",
                    parts[budget->pair[0]].name, parts[budget->pair[1]].name, 100 * budget->pair_share);
 }
 
-/// The model with the stored table's chords for its curves, still in double precision; a classical model as
-/// it is.
-static model_t with_chords(const model_t* model, const hyst_f32_model_t* stored)
-{
-    model_t copy = model_copy(model);
-    if (stored->num_knots > 0) {
-        tabulate_curve(&copy.ascending, stored);
-        tabulate_curve(&copy.descending, stored);
-        tabulate_curve(&copy.nonhysteretic, stored);
-    }
-    return copy;
-}
-
-static hyst_start_t firmware_start(start_t start)
-{
-    switch (start) {
-    case START_POSITIVE_SATURATION:
-        return HYST_START_POSITIVE_SATURATION;
-    case START_DEMAGNETISED:
-        return HYST_START_DEMAGNETISED;
-    case START_NEGATIVE_SATURATION:
-    case START_MODEL:
-        break;
-    }
-    return HYST_START_NEGATIVE_SATURATION;
-}
-
-static outcome_t run_firmware(const budget_chain_t* chain, const hyst_f32_model_t* model,
-                              const effect_run_t* run, double* output)
-{
-    hyst_f32_segment_t* memory = xcalloc(model->num_plays, sizeof *memory);
-    hyst_f32_state_t state;
-    const hyst_status_t status = hyst_f32_init(model, &state, memory, model->num_plays);
-    if (status == HYST_STATUS_OK) {
-        output[0] = (double)hyst_f32_reset(model, &state, firmware_start(chain->start), (float)run->input[0]);
-        for (size_t t = 1; t < run->num_samples; t++) {
-            output[t] = (double)hyst_f32_step(model, &state, (float)run->input[t]);
-        }
-    }
-    free(memory);
-    return status == HYST_STATUS_OK
-               ? OUTCOME_OK
-               : message_error(OUTCOME_NUMERICAL, (location_t){.file = input_name(chain->compressed_path)},
-                               "the model has no valid form in float: %s", hyst_status_text(status));
-}
-
 static outcome_t run_header(const budget_chain_t* chain, const effect_run_t* run, const double* clamped_input,
                             double* tabulated_output, double* firmware_output)
 {
-    const model_t* model = chain->compressed;
-    const double table_error = tabulate_default_error(model);
-    tabulated_t tabulated;
-    const char* fault = tabulate(model, table_error, &tabulated);
-    if (fault != NULL) {
-        return message_error(OUTCOME_NUMERICAL, (location_t){.file = input_name(chain->compressed_path)},
-                             "cannot be put into float with a table error of %.9g: %s", table_error, fault);
+    firmware_t firmware;
+    outcome_t outcome = firmware_new(chain->compressed, chain->compressed_path, chain->scalar, &firmware);
+    if (outcome == OUTCOME_OK) {
+        model_t chords = firmware_chords(&firmware, chain->compressed);
+        reference_run(&chords, chain->start, clamped_input, run->num_samples, tabulated_output);
+        model_free(&chords);
+        outcome = firmware_run(&firmware, chain->start, run->input, run->num_samples, firmware_output);
     }
-    model_t chords = with_chords(model, &tabulated.model);
-    reference_run(&chords, chain->start, clamped_input, run->num_samples, tabulated_output);
-    model_free(&chords);
-    const outcome_t outcome = run_firmware(chain, &tabulated.model, run, firmware_output);
-    tabulated_free(&tabulated);
+    firmware_free(&firmware);
     return outcome;
 }
 

@@ -4,6 +4,7 @@
 #define HYST_HOST_DIAGNOSE_BUDGET_H
 
 #include "diagnose_hypothesis.h"
+#include "scalar.h"
 
 /// firmware - measured = rounding + table + clamping + compression + unmodelled + (the rest), sample by
 /// sample; the rest's mean square is shared out over noise, identification and what none of them explains.
@@ -38,6 +39,7 @@ typedef struct {
     const model_t* full;
     const model_t* compressed;
     const char* compressed_path; ///< for messages
+    scalar_t scalar;             ///< the header's
     start_t start;               ///< not START_MODEL: firmware starts from saturation or demagnetised
     const hypothesis_t* verdict; ///< its effects, or NULL when there are none to name
     double noise;                ///< the sensor's standard deviation [output]

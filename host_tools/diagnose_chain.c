@@ -61,11 +61,11 @@ static bool same_or_unnamed(const char* a, const char* b)
 
 outcome_t chain_read(const chain_paths_t* paths, chain_t* chain)
 {
-    *chain = (chain_t){.paths = *paths};
-    if (strcmp(paths->scalar, "f32") != 0) {
-        return message_error(OUTCOME_USAGE, NOWHERE,
-                             "--chain: \"%s\" is no scalar that headers are made with, expected f32",
-                             paths->scalar);
+    *chain = (chain_t){.paths = *paths, .scalar = scalar_find(paths->scalar)};
+    if (chain->scalar == NUM_SCALARS) {
+        return message_error(
+            OUTCOME_USAGE, NOWHERE,
+            "--chain: \"%s\" is no scalar that headers are made with, expected " SCALAR_NAMES, paths->scalar);
     }
     outcome_t outcome = read_plain_model(paths->full, &chain->full);
     if (outcome == OUTCOME_OK) {
@@ -131,6 +131,7 @@ outcome_t chain_budget(const chain_t* chain, const record_t* record, const diagn
     const budget_chain_t stages = {.full = &chain->full,
                                    .compressed = &chain->compressed,
                                    .compressed_path = chain->paths.compressed,
+                                   .scalar = chain->scalar,
                                    .start = start,
                                    .verdict = diagnosis->is_unknown ? NULL : diagnosis->cause[0].hypothesis,
                                    .noise = diagnosis->noise,

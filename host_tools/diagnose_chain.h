@@ -6,7 +6,7 @@
 #include "diagnose_budget.h"
 
 /// How --help names the option's three words.
-#define CHAIN_ARGUMENTS "FULL.json COMPRESSED.json f32"
+#define CHAIN_ARGUMENTS "FULL.json COMPRESSED.json f32|q31|q15"
 
 /// The option's words, as they stand in argv; full is NULL where the option was not given.
 typedef struct {
@@ -17,6 +17,7 @@ typedef struct {
 
 typedef struct {
     chain_paths_t paths;
+    scalar_t scalar;
     model_t full;
     model_t compressed;
 } chain_t;

@@ -7,17 +7,37 @@
 
 enum { MAX_THETA = HYPOTHESIS_MAX_EFFECTS * EFFECT_MAX_PARAMETERS };
 
-gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
-              const nuisance_t* nuisance, double variance)
+bool gap_is_judged(const gap_t* gap, size_t sample)
 {
-    gap_t gap = {.model = model, .run = run, .start = start, .output = output};
-    bool* counts = xmalloc(run->num_samples * sizeof *counts);
-    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        gap.block_end[b] = run->num_samples * (b + 1) / HYPOTHESIS_BLOCKS;
+    return gap->carried == NULL || !gap->carried[sample];
+}
+
+/// Blocks of as many judged samples each.
+static void set_blocks(gap_t* gap)
+{
+    const size_t n = gap->run->num_samples;
+    for (size_t t = 0; t < n; t++) {
+        gap->num_judged += gap_is_judged(gap, t);
     }
+    size_t end = 0;
+    size_t count = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        for (; end < n && count < gap->num_judged * (b + 1) / HYPOTHESIS_BLOCKS; end++) {
+            count += gap_is_judged(gap, end);
+        }
+        gap->block_end[b] = b + 1 < HYPOTHESIS_BLOCKS ? end : n;
+    }
+}
+
+gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
+              const bool* carried, const nuisance_t* nuisance, double variance)
+{
+    gap_t gap = {.model = model, .run = run, .start = start, .output = output, .carried = carried};
+    set_blocks(&gap);
+    bool* counts = xmalloc(run->num_samples * sizeof *counts);
     for (size_t fold = 0; fold <= HYPOTHESIS_FOLDS; fold++) {
         for (size_t t = 0; t < run->num_samples; t++) {
-            counts[t] = gap_block_of(&gap, t) % HYPOTHESIS_FOLDS != fold;
+            counts[t] = gap_block_of(&gap, t) % HYPOTHESIS_FOLDS != fold && gap_is_judged(&gap, t);
         }
         gap.filter[fold] = nuisance_filter_new(nuisance, variance, counts);
     }
@@ -56,7 +76,7 @@ void hypothesis_free(hypothesis_t* hypothesis)
     hypothesis->predicted = NULL;
 }
 
-static bool names_use(const hypothesis_t* hypothesis, const effect_use_t* use)
+bool hypothesis_names_use(const hypothesis_t* hypothesis, const effect_use_t* use)
 {
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
         if (strcmp(hypothesis->use[i].effect->name, use->effect->name) == 0 &&
@@ -71,7 +91,7 @@ bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b)
 {
     bool same = a->num_uses == b->num_uses;
     for (size_t i = 0; same && i < a->num_uses; i++) {
-        same = names_use(b, &a->use[i]);
+        same = hypothesis_names_use(b, &a->use[i]);
     }
     return same;
 }
@@ -180,7 +200,7 @@ static void keep_fitted(const search_t* s, double* residual)
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
         const bool skip = is_held_out(s, b);
         for (; t < s->gap->block_end[b]; t++) {
-            residual[t] = skip ? 0 : residual[t];
+            residual[t] = skip || !gap_is_judged(s->gap, t) ? 0 : residual[t];
         }
     }
 }
@@ -223,10 +243,11 @@ static int minpack_residual(void* context, int m, int n, const double* theta, do
 static size_t count_fitted(const search_t* s)
 {
     size_t count = 0;
-    size_t begin = 0;
+    size_t t = 0;
     for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        count += is_held_out(s, b) ? 0 : s->gap->block_end[b] - begin;
-        begin = s->gap->block_end[b];
+        for (; t < s->gap->block_end[b]; t++) {
+            count += !is_held_out(s, b) && gap_is_judged(s->gap, t);
+        }
     }
     return count;
 }
@@ -255,6 +276,9 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
         for (size_t i = 0; i < n; i++) {
             from_theta(&s.free[i], theta[i]);
         }
+    }
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_normalise(&hypothesis->use[i]);
     }
     residual_of(&s, residual);
     keep_fitted(&s, residual);
@@ -320,7 +344,7 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
             double error = 0;
             for (; t < gap->block_end[b]; t++) {
-                error += residual[t] * residual[t];
+                error += gap_is_judged(gap, t) ? residual[t] * residual[t] : 0;
             }
             if (is_held_out(&s, b)) {
                 hypothesis->block_error[b] = error;
@@ -330,5 +354,5 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         search_free(&s);
     }
     free(residual);
-    hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->run->num_samples);
+    hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->num_judged);
 }

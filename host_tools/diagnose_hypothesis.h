@@ -15,15 +15,19 @@ typedef struct {
     const effect_run_t* run;
     start_t start;
     const double* output; ///< [run->num_samples] measured
+    const bool* carried;  ///< [run->num_samples] true: only there for the memory (record_thin.h), or NULL
+    size_t num_judged;    ///< samples that are not carried
     size_t
         block_end[HYPOTHESIS_BLOCKS]; ///< contiguous stretches; block b belongs to fold b % HYPOTHESIS_FOLDS
     nuisance_filter_t filter[HYPOTHESIS_FOLDS + 1]; ///< with each fold held out, and with none
 } gap_t;
 
-/// nuisance: what the body leaves open, no directions: nothing. variance: of what the output holds besides.
+/// carried: as in gap_t; the blocks hold equally many of the other samples. nuisance: what the body leaves open (no
+/// directions: nothing). variance: of what the output holds besides.
 gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
-              const nuisance_t* nuisance, double variance);
+              const bool* carried, const nuisance_t* nuisance, double variance);
 void gap_free(gap_t* gap);
+bool gap_is_judged(const gap_t* gap, size_t sample);
 size_t gap_block_of(const gap_t* gap, size_t sample);
 
 typedef struct {
@@ -39,6 +43,8 @@ typedef struct {
 
 hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses);
 void hypothesis_free(hypothesis_t* hypothesis);
+/// Whether one of its effects is the use's by name and column.
+bool hypothesis_names_use(const hypothesis_t* hypothesis, const effect_use_t* use);
 /// Whether both name the same effects (mechanisms aside).
 bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b);
 

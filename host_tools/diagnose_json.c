@@ -89,10 +89,11 @@ json_t* diagnosis_to_json(const diagnosis_t* d)
     for (size_t k = 0; k < d->num_causes && k < 10; k++) {
         json_array_append_new(causes, cause_json(&d->cause[k]));
     }
-    return json_pack("{s:s, s:i, s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o}", "format", "hyst-diagnosis",
-                     "version", 1, "gap", "rmse", d->rmse, "relative", d->relative, "noise", d->noise,
-                     "noise_floor", d->noise_floor, "closable", d->closable, "where", where, "causes", causes,
-                     "verdict", verdict_json(d));
+    return json_pack("{s:s, s:i, s:{s:I, s:I, s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o}", "format",
+                     "hyst-diagnosis", "version", 1, "gap", "samples", (json_int_t)d->num_samples,
+                     "samples_judged", (json_int_t)d->num_judged, "rmse", d->rmse, "relative", d->relative,
+                     "noise", d->noise, "noise_floor", d->noise_floor, "closable", d->closable, "where",
+                     where, "causes", causes, "verdict", verdict_json(d));
 }
 
 json_t* budget_to_json(const budget_t* budget)

@@ -66,8 +66,8 @@ static drawing_t drawing_new(const report_t* report, FILE* out)
     const size_t n = report->run->num_samples;
     const hypothesis_t* verdict = verdict_of(report->diagnosis);
     drawing_t drawing = {.report = report,
-                         .before = report->diagnosis->hypothesis[0].predicted,
-                         .after = verdict != NULL ? verdict->predicted : NULL,
+                         .before = report->diagnosis->before,
+                         .after = verdict != NULL ? report->diagnosis->after : NULL,
                          .rate = rate_of(report->run),
                          .out = out};
     drawing.residual_before = difference_of(report->measured, drawing.before, n);

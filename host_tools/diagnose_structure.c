@@ -116,22 +116,27 @@ static double fold_error(const double* matrix, const double* target, const size_
 double structure_found(const gap_t* gap, const double* predicted, const double* residual)
 {
     const size_t n = gap->run->num_samples;
-    const size_t stride = n / MAX_ROWS + 1;
-    const size_t rows = (n + stride - 1) / stride;
+    const size_t stride = gap->num_judged / MAX_ROWS + 1;
+    const size_t rows = (gap->num_judged + stride - 1) / stride;
     double* states = xmalloc(STATES * n * sizeof *states);
     double* matrix = xmalloc(rows * FEATURES * sizeof *matrix);
     double* target = xmalloc(rows * sizeof *target);
     size_t* fold_of = xmalloc(rows * sizeof *fold_of);
     play_states(gap, states);
     double energy = 0;
-    for (size_t r = 0; r < rows; r++) {
+    size_t judged = 0;
+    for (size_t t = 0; t < n; t++) {
+        if (!gap_is_judged(gap, t) || judged++ % stride != 0) {
+            continue;
+        }
+        const size_t r = (judged - 1) / stride;
         double feature[FEATURES];
-        features_at(gap, predicted, states, r * stride, feature);
+        features_at(gap, predicted, states, t, feature);
         for (size_t c = 0; c < FEATURES; c++) {
             matrix[c * rows + r] = feature[c];
         }
-        target[r] = residual[r * stride];
-        fold_of[r] = gap_block_of(gap, r * stride) % HYPOTHESIS_FOLDS;
+        target[r] = residual[t];
+        fold_of[r] = gap_block_of(gap, t) % HYPOTHESIS_FOLDS;
         energy += target[r] * target[r];
     }
     standardise(matrix, rows);
@@ -218,24 +223,4 @@ sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t n
         }
     }
     return best;
-}
-
-double grid_step(const double* values, size_t num_samples)
-{
-    double* sorted = xmalloc(num_samples * sizeof *sorted);
-    memcpy(sorted, values, num_samples * sizeof *sorted);
-    qsort(sorted, num_samples, sizeof *sorted, by_value);
-    const double range = sorted[num_samples - 1] - sorted[0];
-    double step = HUGE_VAL;
-    for (size_t t = 1; t < num_samples; t++) {
-        const double gap = sorted[t] - sorted[t - 1];
-        step = gap > 1e-7 * range && gap < step ? gap : step;
-    }
-    bool on_grid = isfinite(step) && step > 1e-3 * range;
-    for (size_t t = 1; t < num_samples && on_grid; t++) {
-        const double steps = (sorted[t] - sorted[0]) / step;
-        on_grid = fabs(steps - round(steps)) < 1e-3 * fmax(1, steps);
-    }
-    free(sorted);
-    return on_grid ? step : 0;
 }

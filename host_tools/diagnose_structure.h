@@ -17,8 +17,5 @@ typedef struct {
 /// The strongest line of a series' least-squares spectrum, between two periods a record and a quarter of the
 /// sample rate.
 sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t num_samples);
-/// The step of the grid that all values lie on, or 0 when they lie on none coarser than a thousandth of their
-/// range.
-double grid_step(const double* values, size_t num_samples);
 
 #endif

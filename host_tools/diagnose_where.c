@@ -1,19 +1,11 @@
 #include "diagnose_where.h"
 
+#include "where_band.h"
+#include "where_region.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/// Stretches that are resampled for the shares' intervals, and how often.
-enum { STRETCHES = 24, RESAMPLES = 200 };
-
-/// A sample on one axis with its energy above the noise.
-typedef struct {
-    double at;
-    double energy;
-    size_t stretch;
-} entry_t;
 
 const char* where_axis_name(axis_t axis)
 {
@@ -88,103 +80,39 @@ static void reversals(const effect_run_t* run, double* since, double* depth)
 
 static int by_place(const void* a, const void* b)
 {
-    const double x = ((const entry_t*)a)->at;
-    const double y = ((const entry_t*)b)->at;
+    const double x = ((const place_t*)a)->at;
+    const double y = ((const place_t*)b)->at;
     return (x > y) - (x < y);
 }
 
-static size_t stretch_of(size_t t, size_t num_samples)
+static void set_interval(const place_t* place, size_t n, double from, double to, region_t* region)
 {
-    return t * STRETCHES / num_samples;
+    double inside[WHERE_STRETCHES] = {0};
+    double whole[WHERE_STRETCHES] = {0};
+    for (size_t i = 0; i < n; i++) {
+        whole[place[i].stretch] += place[i].energy;
+        inside[place[i].stretch] += place[i].at >= from && place[i].at <= to ? place[i].energy : 0;
+    }
+    where_set_interval(inside, whole, region);
 }
 
-/// The interval of sorted entries whose share of the energy exceeds its share of the samples the most: the
-/// largest sum of a run of (energy / total - 1 / n).
-static void best_run(const entry_t* entry, size_t n, double total, size_t* first, size_t* last)
+static bool find_region(place_t* place, size_t n, axis_t axis, region_t* region)
 {
-    double best = -HUGE_VAL;
-    double sum = 0;
-    size_t begin = 0;
-    *first = 0;
-    *last = n - 1;
-    for (size_t i = 0; i < n; i++) {
-        if (sum <= 0) {
-            sum = 0;
-            begin = i;
-        }
-        sum += entry[i].energy / total - 1.0 / (double)n;
-        const bool boundary = i + 1 == n || entry[i + 1].at > entry[i].at;
-        if (boundary && sum > best) {
-            best = sum;
-            *first = begin;
-            *last = i;
-        }
-    }
-    while (*first > 0 && entry[*first - 1].at >= entry[*first].at) {
-        --*first;
-    }
-}
-
-/// The share's 90 % interval when the record's stretches are drawn anew, with replacement.
-static void share_interval(const entry_t* entry, size_t n, double from, double to, region_t* region)
-{
-    double inside[STRETCHES] = {0};
-    double whole[STRETCHES] = {0};
-    for (size_t i = 0; i < n; i++) {
-        whole[entry[i].stretch] += entry[i].energy;
-        inside[entry[i].stretch] += entry[i].at >= from && entry[i].at <= to ? entry[i].energy : 0;
-    }
-    double share[RESAMPLES];
-    unsigned long long seed = 20150757;
-    for (size_t r = 0; r < RESAMPLES; r++) {
-        double a = 0;
-        double b = 0;
-        for (size_t s = 0; s < STRETCHES; s++) {
-            seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-            const size_t drawn = (size_t)((seed >> 33) % STRETCHES);
-            a += inside[drawn];
-            b += whole[drawn];
-        }
-        share[r] = b > 0 ? fmin(fmax(a / b, 0), 1) : 0;
-        for (size_t k = r; k > 0 && share[k] < share[k - 1]; k--) {
-            const double swap = share[k];
-            share[k] = share[k - 1];
-            share[k - 1] = swap;
-        }
-    }
-    region->share_low = share[RESAMPLES / 20];
-    region->share_high = share[RESAMPLES - 1 - RESAMPLES / 20];
-}
-
-static bool find_region(entry_t* entry, size_t n, axis_t axis, region_t* region)
-{
-    double total = 0;
-    for (size_t i = 0; i < n; i++) {
-        total += entry[i].energy;
-    }
-    if (!(total > 0)) {
-        return false;
-    }
-    qsort(entry, n, sizeof *entry, by_place);
     size_t first;
     size_t last;
-    best_run(entry, n, total, &first, &last);
-    double sum = 0;
-    for (size_t i = first; i <= last; i++) {
-        sum += entry[i].energy;
+    qsort(place, n, sizeof *place, by_place);
+    if (!where_best_region(place, n, axis, region, &first, &last)) {
+        return false;
     }
-    *region = (region_t){.axis = axis, .from = entry[first].at, .to = entry[last].at};
-    region->share = fmin(fmax(sum / total, 0), 1);
-    region->lift = region->share * (double)n / (double)(last - first + 1);
-    share_interval(entry, n, region->from, region->to, region);
+    set_interval(place, n, region->from, region->to, region);
     return true;
 }
 
-/// How much a region says: what it holds beyond its part of the samples, counted with the interval's lower
-/// end.
+/// How much a region says: what it holds beyond what any gap would have there, counted with the interval's
+/// lower end.
 static double telling(const region_t* region)
 {
-    return region->share_low - region->share / region->lift;
+    return region->share_low - region->ordinary;
 }
 
 static int by_telling(const void* a, const void* b)
@@ -197,10 +125,10 @@ static int by_telling(const void* a, const void* b)
 static size_t find_direction(const double* direction, const double* energy, size_t n, region_t* region)
 {
     size_t count = 0;
-    entry_t* entry = xmalloc(n * sizeof *entry);
+    place_t* place = xmalloc(n * sizeof *place);
     double total = 0;
     for (size_t t = 0; t < n; t++) {
-        entry[t] = (entry_t){direction[t], energy[t], stretch_of(t, n)};
+        place[t] = (place_t){direction[t], energy[t], where_stretch(t, n)};
         total += energy[t];
     }
     for (int d = -1; d <= 1 && total > 0; d++) {
@@ -215,11 +143,12 @@ static size_t find_direction(const double* direction, const double* energy, size
             region_t* r = &region[count++];
             *r = (region_t){
                 .axis = AXIS_DIRECTION, .from = d, .to = d, .share = fmin(fmax(sum / total, 0), 1)};
-            r->lift = r->share * (double)n / (double)samples;
-            share_interval(entry, n, d - 0.5, d + 0.5, r);
+            r->ordinary = (double)samples / (double)n;
+            r->lift = r->share / r->ordinary;
+            set_interval(place, n, d - 0.5, d + 0.5, r);
         }
     }
-    free(entry);
+    free(place);
     return count;
 }
 
@@ -232,7 +161,7 @@ size_t where_find(const effect_run_t* run, const double* output, const double* g
     double* depth = since + n;
     double* direction = depth + n;
     double* energy = direction + n;
-    entry_t* entry = xmalloc(n * sizeof *entry);
+    place_t* place = xmalloc(n * sizeof *place);
     reversals(run, since, depth);
     directions(run, direction);
     for (size_t t = 0; t < n; t++) {
@@ -243,12 +172,13 @@ size_t where_find(const effect_run_t* run, const double* output, const double* g
         for (size_t t = 0; t < n; t++) {
             const double at[] = {run->time[t],          run->input[t], output[t],
                                  fabs(rate_at(run, t)), since[t],      depth[t]};
-            entry[t] = (entry_t){at[axis], energy[t], stretch_of(t, n)};
+            place[t] = (place_t){at[axis], energy[t], where_stretch(t, n)};
         }
-        count += find_region(entry, n, (axis_t)axis, &region[count]);
+        count += find_region(place, n, (axis_t)axis, &region[count]);
     }
+    count += where_find_band(run, output, gap, noise, &region[count]);
     count += find_direction(direction, energy, n, &region[count]);
-    free(entry);
+    free(place);
     free(work);
     qsort(region, count, sizeof *region, by_telling);
     return count;

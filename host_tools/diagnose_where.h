@@ -24,6 +24,8 @@ typedef struct {
     double from, to; ///< AXIS_DIRECTION: from is -1 descending, 0 holding, 1 ascending
     double share;    ///< part of the gap's energy above the noise that lies in here
     double lift;     ///< share over the region's part of the samples (frequency: of the spectrum)
+    double ordinary; ///< part of the samples, for frequency the larger of the parts of the spectrum and of
+                     ///< the measured output: a gap that is only like the output sits there too
     double share_low, share_high; ///< 90 % interval of the share over resampled stretches
 } region_t;
 

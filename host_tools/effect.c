@@ -17,6 +17,7 @@ static const effect_t* const catalogue[] = {
     &effect_noncongruency_increment,
     &effect_wear_amplitude,
     &effect_wear_increment,
+    &effect_wear_response,
     &effect_initial_state,
     &effect_output_lag,
     &effect_resonance,

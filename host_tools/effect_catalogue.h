@@ -17,6 +17,7 @@ extern const effect_t effect_noncongruency_product;
 extern const effect_t effect_noncongruency_moving;
 extern const effect_t effect_wear_increment;
 extern const effect_t effect_wear_amplitude;
+extern const effect_t effect_wear_response;
 extern const effect_t effect_initial_state;
 extern const effect_t effect_output_lag;
 extern const effect_t effect_resonance;

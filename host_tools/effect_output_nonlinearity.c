@@ -1,30 +1,45 @@
 /// output_nonlinearity: a smooth static map on the output (a sensor's characteristic, a lever's geometry).
-///     y' = y + half (quadratic z^2 + cubic z^3),  z = (y - middle) / half
+///     y' = y + half (shift + linear z + quadratic z^2 + cubic z^3),  z = (y - middle) / half
 /// middle and half of the model's output between its two saturations; beyond |z| = 1 the map goes on
-/// straight. quadratic, cubic [1], the map increasing: 1 + 2 quadratic z + 3 cubic z^2 > 0 on [-1, 1].
+/// straight. All [1]; shift and linear say where the sensor was trimmed. The map increases: 1 + linear + 2 quadratic
+/// z + 3 cubic z^2 > 0 on [-1, 1].
 /// Inverse: by halving.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
-enum { QUADRATIC, CUBIC };
+enum { QUADRATIC, CUBIC, SHIFT, LINEAR };
 
 static const effect_parameter_t parameters[] = {
     [QUADRATIC] = {"quadratic", "1", .least = -10.0, .most = 10.0},
     [CUBIC] = {"cubic", "1", .least = -10.0, .most = 10.0},
+    [SHIFT] = {"shift", "1", .least = -10.0, .most = 10.0, .optional = true},
+    [LINEAR] = {"linear", "1", .least = -0.9, .most = 10.0, .optional = true},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     (void)run;
-    // 1 - 2 * 0.3 - 3 * 0.13 > 0: increasing anywhere in the box.
-    *result = parameter == QUADRATIC ? limits_linear(-0.3, 0.3, 0.0, 0.0, 0.05, -0.05)
-                                     : limits_linear(-0.13, 0.3, 0.0, 0.0, -0.05, 0.05);
+    // 1 - 0.3 - 2 * 0.22 - 3 * 0.08 > 0: increasing anywhere in the box.
+    switch (parameter) {
+    case QUADRATIC:
+        *result = limits_linear(-0.22, 0.22, 0.0, 0.0, 0.05, -0.05);
+        break;
+    case CUBIC:
+        *result = limits_linear(-0.08, 0.3, 0.0, 0.0, -0.05, 0.05);
+        break;
+    case SHIFT:
+        *result = limits_linear(-0.5, 0.5, 0.0, 0.0, 0.0, 0.0);
+        break;
+    default:
+        *result = limits_linear(-0.3, 0.5, 0.0, 0.0, 0.0, 0.0);
+        break;
+    }
 }
 
 static double slope_at(const double* parameter, double z)
 {
-    return 1.0 + z * (2.0 * parameter[QUADRATIC] + 3.0 * parameter[CUBIC] * z);
+    return 1.0 + parameter[LINEAR] + z * (2.0 * parameter[QUADRATIC] + 3.0 * parameter[CUBIC] * z);
 }
 
 static const char* fault(const double* parameter)
@@ -41,7 +56,8 @@ static const char* fault(const double* parameter)
 static double map(const double* parameter, double z)
 {
     const double end = fmin(fmax(z, -1.0), 1.0);
-    const double at_end = end + end * end * (parameter[QUADRATIC] + parameter[CUBIC] * end);
+    const double at_end = parameter[SHIFT] + (1.0 + parameter[LINEAR]) * end +
+                          end * end * (parameter[QUADRATIC] + parameter[CUBIC] * end);
     return at_end + slope_at(parameter, end) * (z - end);
 }
 
@@ -104,4 +120,5 @@ const effect_t effect_output_nonlinearity = {
     .limits = limits,
     .apply = apply,
     .invert = invert,
+    .covers = 0.5, // gain_offset is a part of it
 };

@@ -32,6 +32,7 @@ check_build() {
     pkg-config --exists cminpack || need cminpack libcminpack-dev cminpack-devel cminpack
     pkg-config --exists lapacke || need lapacke liblapacke-dev lapack-devel lapack
     pkg-config --exists openblas || need openblas libopenblas-dev openblas-devel openblas
+    pkg-config --exists kissfft-float || need kissfft libkissfft-dev "'pkgconfig(kissfft-float)'" kissfft
     have_header csv.h || need libcsv libcsv-dev libcsv-devel libcsv
 }
 

@@ -1,4 +1,5 @@
 #include "diagnose.h"
+#include "effect_catalogue.h"
 #include "random.h"
 #include <math.h>
 #include <stdio.h>
@@ -89,7 +90,7 @@ static void run_plant(double lag, double gain_per_degree)
     }
 }
 
-static void run_diagnosis(void)
+static void run_diagnosis_on(size_t num_threads)
 {
     column_t column = {"temperature", column_value};
     const record_t record = {.path = "made.csv",
@@ -99,8 +100,14 @@ static void run_diagnosis(void)
                              .output = output,
                              .num_auxiliary = 1,
                              .auxiliary = &column};
-    const diagnose_options_t options = {.calibration_rmse = noise, .calibration_noise = noise};
+    const diagnose_options_t options = {
+        .calibration_rmse = noise, .calibration_noise = noise, .num_threads = num_threads};
     TEST_ASSERT_EQUAL(OUTCOME_OK, diagnose(&model, &record, &options, &diagnosis));
+}
+
+static void run_diagnosis(void)
+{
+    run_diagnosis_on(0);
 }
 
 static const effect_use_t* only_effect(void)
@@ -156,6 +163,29 @@ static void test_two_effects_are_both_named(void)
     TEST_ASSERT_TRUE(diagnosis.cause[0].rmse_after < 1.3 * noise);
 }
 
+/// Pairs are searched here, too: the same bits on one thread and on three.
+static void test_threads_change_nothing(void)
+{
+    make_input(4);
+    run_plant(0.05, 0.02);
+    run_diagnosis_on(1);
+    diagnosis_t alone = diagnosis;
+    diagnosis = (diagnosis_t){0};
+    run_diagnosis_on(3);
+    TEST_ASSERT_EQUAL(alone.num_causes, diagnosis.num_causes);
+    for (size_t k = 0; k < alone.num_causes; k++) {
+        const cause_t* a = &alone.cause[k];
+        const cause_t* b = &diagnosis.cause[k];
+        TEST_ASSERT_TRUE(hypothesis_same_names(a->hypothesis, b->hypothesis));
+        TEST_ASSERT_EQUAL_MEMORY(&a->probability, &b->probability, sizeof a->probability);
+        TEST_ASSERT_EQUAL_MEMORY(a->hypothesis->block_error, b->hypothesis->block_error,
+                                 sizeof a->hypothesis->block_error);
+        TEST_ASSERT_EQUAL_MEMORY(a->hypothesis->use[0].parameter, b->hypothesis->use[0].parameter,
+                                 sizeof a->hypothesis->use[0].parameter);
+    }
+    diagnosis_free(&alone);
+}
+
 /// Knocks on the sensor belong to no entry of the catalogue.
 static void test_stranger_is_unknown(void)
 {
@@ -169,6 +199,25 @@ static void test_stranger_is_unknown(void)
     TEST_ASSERT_EQUAL(AXIS_TIME, diagnosis.region[0].axis);
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 12, diagnosis.region[0].from);
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 15, diagnosis.region[0].to);
+}
+
+/// A search may end with creep's two time constants in either order; a model file takes only one.
+static void test_fitted_parameters_are_in_their_order(void)
+{
+    make_input(7);
+    run_plant(0, 0);
+    const record_t record = {
+        .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
+    effect_run_t run = effect_run_new(&model, &record);
+    const nuisance_t nothing = {0};
+    gap_t gap = gap_new(&model, &run, START_NEGATIVE_SATURATION, output, NULL, &nothing, 1);
+    const effect_use_t swapped = {.effect = &effect_creep_additional, .parameter = {0.1, 2, 0.1}};
+    hypothesis_t creep = hypothesis_of(&swapped, 1);
+    hypothesis_fit(&creep, &gap, -1, 2);
+    TEST_ASSERT_TRUE(creep.use[0].parameter[1] <= creep.use[0].parameter[2]);
+    TEST_ASSERT_NULL(creep.use[0].effect->fault(creep.use[0].parameter));
+    gap_free(&gap);
+    effect_run_free(&run);
 }
 
 static void test_records_without_excitation_are_refused(void)
@@ -193,7 +242,9 @@ int main(void)
     RUN_TEST(test_output_lag_is_named_and_sized);
     RUN_TEST(test_column_is_named);
     RUN_TEST(test_two_effects_are_both_named);
+    RUN_TEST(test_threads_change_nothing);
     RUN_TEST(test_stranger_is_unknown);
+    RUN_TEST(test_fitted_parameters_are_in_their_order);
     RUN_TEST(test_records_without_excitation_are_refused);
     return UNITY_END();
 }

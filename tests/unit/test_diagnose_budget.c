@@ -1,8 +1,10 @@
 #include "diagnose_budget.h"
 #include "effect_catalogue.h"
+#include "firmware.h"
+#include "q_model.h"
 #include "random.h"
 #include "reference.h"
-#include "tabulate.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 #include <unity.h>
@@ -27,6 +29,9 @@ static void tanh_envelopes(model_t* model)
     model->ascending = curve_tanh(0.4, -2.2);
     model->descending = curve_tanh(0.4, -1.8);
 }
+
+/// What q15's header may be off by when it converts outputs, none above 8 here, in float: three roundings.
+static const double in_float = 3 * 8 * (double)FLT_EPSILON;
 
 /// Inputs that float holds exactly, so that lib/'s error bounds apply.
 static void make_input(double largest)
@@ -89,7 +94,8 @@ static double measure(const hypothesis_t* plant, double sigma)
 
 static budget_chain_t chain_with(const hypothesis_t* verdict)
 {
-    return (budget_chain_t){.full = &full,
+    return (budget_chain_t){.scalar = SCALAR_F32,
+                            .full = &full,
                             .compressed = &compressed,
                             .compressed_path = "compressed.json",
                             .start = START_NEGATIVE_SATURATION,
@@ -147,23 +153,62 @@ static void test_each_part_is_its_own_step(void)
     TEST_ASSERT_EQUAL_DOUBLE(0, part(&budget, BUDGET_IDENTIFICATION));
 }
 
-static void test_table_and_rounding_keep_their_bounds(void)
+/// The error bounds of a header's numbers, which hold for inputs that its scalar holds exactly.
+typedef struct {
+    double table, rounding;
+} bounds_t;
+
+static bounds_t bounds_of(scalar_t scalar)
 {
-    const hypothesis_t lag = a_lag();
-    measure(&lag, noise);
-    const budget_chain_t chain = chain_with(&lag);
-    const budget_t budget = budget_of(&chain);
-    tabulated_t tabulated;
-    TEST_ASSERT_NULL(tabulate(&compressed, tabulate_default_error(&compressed), &tabulated));
-    // tabulate.h bounds every sample's error, hence its RMS.
-    TEST_ASSERT_TRUE(part(&budget, BUDGET_TABLE) > 0);
-    TEST_ASSERT_TRUE(part(&budget, BUDGET_TABLE) <= tabulated.table_error);
-    TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) > 0);
-    TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) <= tabulated.float_error);
-    tabulated_free(&tabulated);
+    firmware_t firmware;
+    TEST_ASSERT_EQUAL(OUTCOME_OK, firmware_new(&compressed, "compressed.json", scalar, &firmware));
+    const bounds_t bounds =
+        scalar == SCALAR_F32
+            ? (bounds_t){firmware.tabulated.table_error, firmware.tabulated.float_error}
+            : (bounds_t){firmware.quantized.table_error, firmware.quantized.quantization_error};
+    firmware_free(&firmware);
+    return bounds;
 }
 
-static double firmware_rmse(void)
+static q_model_t fixed_model(scalar_t scalar)
+{
+    return q_new(&compressed, scalar == SCALAR_Q31 ? QUANTIZED_Q31 : QUANTIZED_Q15,
+                 tabulate_default_error(&compressed));
+}
+
+/// Inputs that the scalar holds exactly.
+static void snap_input(scalar_t scalar)
+{
+    if (scalar == SCALAR_F32) {
+        return; // make_input's are floats
+    }
+    q_model_t q = fixed_model(scalar);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        input[t] = q.quantized.input_offset + q.quantized.input_scale * (double)q_from_units(&q, input[t]);
+    }
+    q_free(&q);
+}
+
+static void test_table_and_rounding_keep_their_bounds(void)
+{
+    for (scalar_t scalar = SCALAR_F32; scalar < NUM_SCALARS; scalar++) {
+        snap_input(scalar);
+        const hypothesis_t lag = a_lag();
+        measure(&lag, noise);
+        budget_chain_t chain = chain_with(&lag);
+        chain.scalar = scalar;
+        const budget_t budget = budget_of(&chain);
+        const bounds_t bounds = bounds_of(scalar);
+        // tabulate.h and quantize.h bound every sample's error, hence its RMS.
+        TEST_ASSERT_TRUE(part(&budget, BUDGET_TABLE) > 0);
+        TEST_ASSERT_TRUE(part(&budget, BUDGET_TABLE) <= bounds.table);
+        TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) > 0);
+        TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) <= bounds.rounding);
+        make_input(10);
+    }
+}
+
+static double f32_rmse(void)
 {
     tabulated_t tabulated;
     TEST_ASSERT_NULL(tabulate(&compressed, tabulate_default_error(&compressed), &tabulated));
@@ -179,20 +224,28 @@ static double firmware_rmse(void)
     return sqrt(sum / SAMPLES);
 }
 
-static void test_parts_add_up_to_the_firmware_within_the_cross_terms(void)
+static double fixed_rmse(scalar_t scalar)
 {
-    const hypothesis_t lag = a_lag();
-    measure(&lag, noise);
-    const budget_chain_t chain = chain_with(&lag);
-    const budget_t budget = budget_of(&chain);
-    TEST_ASSERT_DOUBLE_WITHIN(rounding, firmware_rmse(), budget.total);
+    q_model_t q = fixed_model(scalar);
+    double sum = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        const double error = q_to_units(&q, q_step(&q, q_from_units(&q, input[t]))) - measured[t];
+        sum += error * error;
+    }
+    q_free(&q);
+    return sqrt(sum / SAMPLES);
+}
+
+static void check_sum(const budget_t* budget, double firmware_rmse, double tolerance)
+{
+    TEST_ASSERT_DOUBLE_WITHIN(tolerance, firmware_rmse, budget->total);
     double squares = 0;
     double roots = 0;
     double rest = 0;
     for (size_t i = 0; i < BUDGET_PARTS; i++) {
-        const budget_entry_t* entry = &budget.entry[i];
-        TEST_ASSERT_DOUBLE_WITHIN(rounding, entry->share, pow(entry->rmse / budget.total, 2));
-        TEST_ASSERT_TRUE(i == 0 || entry->share <= budget.entry[i - 1].share);
+        const budget_entry_t* entry = &budget->entry[i];
+        TEST_ASSERT_DOUBLE_WITHIN(rounding, entry->share, pow(entry->rmse / budget->total, 2));
+        TEST_ASSERT_TRUE(i == 0 || entry->share <= budget->entry[i - 1].share);
         squares += entry->rmse * entry->rmse;
         const bool is_rest = entry->part == BUDGET_NOISE || entry->part == BUDGET_IDENTIFICATION ||
                              entry->part == BUDGET_UNEXPLAINED;
@@ -200,11 +253,55 @@ static void test_parts_add_up_to_the_firmware_within_the_cross_terms(void)
         roots += is_rest ? 0 : entry->rmse;
     }
     roots += sqrt(rest);
-    const double total = budget.total * budget.total;
-    TEST_ASSERT_DOUBLE_WITHIN(rounding, total, squares + budget.cross_share * total);
+    const double total = budget->total * budget->total;
+    TEST_ASSERT_DOUBLE_WITHIN(rounding, total, squares + budget->cross_share * total);
     // Cauchy-Schwarz: the steps' products are at most the products of their RMS; noise, misfit and the
     // unexplained are one step.
     TEST_ASSERT_TRUE(fabs(total - squares) <= roots * roots - squares + rounding);
+}
+
+static void test_parts_add_up_to_the_firmware_within_the_cross_terms(void)
+{
+    const hypothesis_t lag = a_lag();
+    for (scalar_t scalar = SCALAR_F32; scalar < NUM_SCALARS; scalar++) {
+        snap_input(scalar);
+        measure(&lag, noise);
+        budget_chain_t chain = chain_with(&lag);
+        chain.scalar = scalar;
+        const budget_t budget = budget_of(&chain);
+        const double tolerance = scalar == SCALAR_Q15 ? in_float : rounding;
+        check_sum(&budget, scalar == SCALAR_F32 ? f32_rmse() : fixed_rmse(scalar), tolerance);
+        make_input(10);
+    }
+}
+
+/// The firmware's outputs are whole steps of the header's output scale: rounding puts no less on them than
+/// the way from the chords' outputs to the nearest such step.
+static void test_fixed_point_rounds_at_least_to_its_output_steps(void)
+{
+    const hypothesis_t lag = a_lag();
+    measure(&lag, noise);
+    static double chords_output[SAMPLES];
+    static double nearest[SAMPLES];
+    for (scalar_t scalar = SCALAR_Q31; scalar < NUM_SCALARS; scalar++) {
+        firmware_t firmware;
+        TEST_ASSERT_EQUAL(OUTCOME_OK, firmware_new(&compressed, "compressed.json", scalar, &firmware));
+        model_t chords = firmware_chords(&firmware, &compressed);
+        reference_run(&chords, START_NEGATIVE_SATURATION, input, SAMPLES, chords_output);
+        const quantized_t* q = &firmware.quantized;
+        for (size_t t = 0; t < SAMPLES; t++) {
+            const double steps = round((chords_output[t] - q->output_offset) / q->output_scale);
+            nearest[t] = q->output_offset + q->output_scale * steps;
+        }
+        model_free(&chords);
+        budget_chain_t chain = chain_with(&lag);
+        chain.scalar = scalar;
+        const budget_t budget = budget_of(&chain);
+        const double least = rms_difference(chords_output, nearest);
+        TEST_ASSERT_TRUE(least > 0);
+        TEST_ASSERT_TRUE(part(&budget, BUDGET_ROUNDING) >= least - (scalar == SCALAR_Q15 ? in_float : 0));
+        firmware_free(&firmware);
+    }
 }
 
 static void test_a_chain_without_a_step_has_nothing_there(void)
@@ -269,13 +366,30 @@ static void test_inputs_beyond_the_range_are_clamped(void)
     TEST_ASSERT_DOUBLE_WITHIN(rounding, rms_difference(beyond, within), part(&budget, BUDGET_CLAMPING));
 }
 
-static void test_a_model_that_float_cannot_hold_is_refused(void)
+static void test_a_model_that_no_scalar_can_hold_is_refused(void)
 {
     const hypothesis_t lag = a_lag();
     measure(&lag, noise);
     compressed.weight[0] = 1e39;
     const budget_chain_t chain = chain_with(&lag);
     budget_t budget;
+    TEST_ASSERT_EQUAL(OUTCOME_NUMERICAL, budget_find(&chain, &run, measured, &budget));
+}
+
+/// Between two of q15's inputs the envelope rises by all of its range: no slope of 16 bits does that.
+static void test_a_model_too_steep_for_q15_is_refused_there(void)
+{
+    curve_free(&compressed.ascending);
+    curve_free(&compressed.descending);
+    compressed.ascending = curve_tanh(1e6, -5.001e6);
+    compressed.descending = curve_tanh(1e6, -5e6);
+    const hypothesis_t none = hypothesis_of(NULL, 0);
+    measure(&none, noise);
+    budget_chain_t chain = chain_with(NULL);
+    budget_t budget;
+    chain.scalar = SCALAR_Q31;
+    TEST_ASSERT_EQUAL(OUTCOME_OK, budget_find(&chain, &run, measured, &budget));
+    chain.scalar = SCALAR_Q15;
     TEST_ASSERT_EQUAL(OUTCOME_NUMERICAL, budget_find(&chain, &run, measured, &budget));
 }
 
@@ -289,6 +403,8 @@ int main(void)
     RUN_TEST(test_the_pair_that_cancels_most_is_named);
     RUN_TEST(test_known_misfit_is_identification);
     RUN_TEST(test_inputs_beyond_the_range_are_clamped);
-    RUN_TEST(test_a_model_that_float_cannot_hold_is_refused);
+    RUN_TEST(test_fixed_point_rounds_at_least_to_its_output_steps);
+    RUN_TEST(test_a_model_that_no_scalar_can_hold_is_refused);
+    RUN_TEST(test_a_model_too_steep_for_q15_is_refused_there);
     return UNITY_END();
 }

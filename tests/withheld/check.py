@@ -180,6 +180,17 @@ class Scoring(unittest.TestCase):
         tone = np.sin(2 * np.pi * 0.1 * np.arange(100))
         self.assertAlmostEqual(true_share({"axis": "frequency", "from": 0.05, "to": 0.15}, record, tone), 1.0)
 
+    def test_where_in_an_uneven_record(self):
+        """Missing samples are filled in from their neighbours, whose mean is 0.95 of a tone of 0.05 cycles a sample, so
+        the tone keeps 0.995 of its amplitude, and 0.95 x 0.05^2 x 0.1 of its energy is spread."""
+        kept = np.arange(1000) % 10 != 5
+        time = 0.01 * np.arange(1000)[kept]
+        tone = np.sin(2 * np.pi * 5.0 * time)
+        share = true_share({"axis": "frequency", "from": 4.9, "to": 5.1}, {"time": time, "input": time}, tone)
+        self.assertAlmostEqual(share, 1.0, delta=1e-3)
+        even = true_share({"axis": "frequency", "from": 0.0, "to": 50.0}, {"time": time, "input": time}, tone)
+        self.assertAlmostEqual(even, 1.0)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -37,18 +37,30 @@ def _axis(name, record):
     return None
 
 
+def _even(time, values):
+    """The values on an even grid of the median step, at most twice as many, and that grid's step."""
+    duration = time[-1] - time[0]
+    intervals = min(round(duration / np.median(np.diff(time))), 2 * len(time))
+    return np.interp(np.linspace(time[0], time[-1], intervals + 1), time, values), duration / intervals
+
+
+def _band_share(region, time, effect):
+    """The share of the spectrum's energy, both signs of the frequency together, on an even grid."""
+    even, step = _even(time, effect)
+    lines = np.abs(np.fft.rfft(even)) ** 2
+    lines[1:(len(even) + 1) // 2] *= 2.0
+    hertz = np.fft.rfftfreq(len(even), step)
+    inside = (hertz >= region["from"]) & (hertz <= region["to"])
+    return float(lines[inside].sum() / lines.sum())
+
+
 def true_share(region, record, effect):
     """The share of the effect's energy in the region; None for an axis unknown here."""
     energy = effect ** 2
     if energy.sum() == 0.0:
         return None
     if region["axis"] == "frequency":
-        spectrum = np.abs(np.fft.rfft(effect)) ** 2
-        spectrum[1:] *= 2.0
-        step = (record["time"][-1] - record["time"][0]) / (len(effect) - 1)
-        hertz = np.fft.rfftfreq(len(effect), step)
-        inside = (hertz >= region["from"]) & (hertz <= region["to"])
-        return float(spectrum[inside].sum() / spectrum.sum())
+        return _band_share(region, record["time"], effect)
     if region["axis"] == "direction":
         value = {"ascending": 1.0, "descending": -1.0, "holding": 0.0}[region["value"]]
         return float(energy[_directions(record["input"]) == value].sum() / energy.sum())

@@ -1,0 +1,249 @@
+#include "diagnose_search.h"
+
+#include "diagnose_structure.h"
+#include "parallel.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
+enum { SINGLE_EVALUATIONS = 40, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
+
+double hypothesis_mean_square(const hypothesis_t* hypothesis)
+{
+    return hypothesis->held_out_rmse * hypothesis->held_out_rmse;
+}
+
+static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
+{
+    hypothesis_t* hypothesis = &c->hypothesis[c->count++];
+    *hypothesis = hypothesis_of(uses, num_uses);
+    return hypothesis;
+}
+
+candidates_t candidates_new(const gap_t* gap, const record_t* calibration, size_t num_threads)
+{
+    candidates_t c = {.gap = gap, .calibration = calibration, .num_threads = num_threads};
+    c.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *c.hypothesis);
+    hypothesis_t* plain = add(&c, NULL, 0);
+    hypothesis_search(plain, gap, false, 1);
+    hypothesis_judge(plain, gap);
+    return c;
+}
+
+void candidates_free(candidates_t* candidates)
+{
+    for (size_t i = 0; i < candidates->count; i++) {
+        hypothesis_free(&candidates->hypothesis[i]);
+    }
+    free(candidates->hypothesis);
+    *candidates = (candidates_t){0};
+}
+
+static double mean_of(const double* values, size_t count)
+{
+    double mean = 0;
+    for (size_t i = 0; i < count; i++) {
+        mean += values[i] / (double)count;
+    }
+    return mean;
+}
+
+/// Parameters that no gradient leads to: a disturbance's frequency, from the spectrum of what `predicted`
+/// leaves.
+static bool guess_parameters(const candidates_t* c, const double* predicted, effect_use_t* use)
+{
+    if (strcmp(use->effect->name, "periodic_disturbance") != 0) {
+        return false;
+    }
+    const effect_run_t* run = c->gap->run;
+    double* difference = xmalloc(run->num_samples * sizeof *difference);
+    for (size_t t = 0; t < run->num_samples; t++) {
+        difference[t] = c->gap->output[t] - predicted[t];
+    }
+    const sinusoid_t peak = strongest_sinusoid(run->time, difference, run->num_samples);
+    free(difference);
+    const double guess[] = {peak.frequency, peak.sine, peak.cosine};
+    memcpy(use->parameter, guess, sizeof guess);
+    return true;
+}
+
+static void add_single(candidates_t* c, const effect_t* effect, const char* column)
+{
+    // How coarse a converter is stands in the record's own values (diagnose_grid.h).
+    if (c->count > MAX_SINGLES || strcmp(effect->name, "quantization") == 0) {
+        return;
+    }
+    effect_use_t use = {.effect = effect};
+    snprintf(use.column, sizeof use.column, "%s", column);
+    for (size_t k = 0; c->calibration != NULL && k < c->calibration->num_auxiliary; k++) {
+        if (strcmp(c->calibration->auxiliary[k].name, column) == 0) {
+            use.has_reference = true;
+            use.reference = mean_of(c->calibration->auxiliary[k].value, c->calibration->num_samples);
+        }
+    }
+    (void)add(c, &use, 1);
+}
+
+static void try_single(void* context, size_t index)
+{
+    const candidates_t* c = context;
+    hypothesis_t* hypothesis = &c->hypothesis[index + 1];
+    const bool guessed = guess_parameters(c, c->hypothesis[0].predicted, &hypothesis->use[0]);
+    hypothesis_search(hypothesis, c->gap, guessed, SINGLE_EVALUATIONS);
+    hypothesis_judge(hypothesis, c->gap);
+}
+
+void candidates_add_singles(candidates_t* c)
+{
+    const record_t* record = c->gap->run->record;
+    for (size_t i = 0; i < effect_count(); i++) {
+        const effect_t* effect = effect_at(i);
+        if (!effect->needs_column) {
+            add_single(c, effect, "");
+        }
+        for (size_t k = 0; effect->needs_column && record != NULL && k < record->num_auxiliary; k++) {
+            add_single(c, effect, record->auxiliary[k].name);
+        }
+    }
+    c->num_singles = c->count - 1;
+    parallel_for(c->num_singles, c->num_threads, try_single, c, (parallel_progress_t){"diagnose", 0, 0.4});
+}
+
+static int by_held_out(const void* a, const void* b)
+{
+    const double x = ((const hypothesis_t*)a)->held_out_rmse;
+    const double y = ((const hypothesis_t*)b)->held_out_rmse;
+    return (x > y) - (x < y);
+}
+
+/// The best mechanism of each name, best first: leaders[] of the hypotheses with one effect; returns how
+/// many.
+static size_t leading_singles(const candidates_t* c, hypothesis_t* leaders)
+{
+    size_t count = 0;
+    for (size_t i = 1; i <= c->num_singles; i++) {
+        size_t k = 0;
+        while (k < count && !hypothesis_same_names(&leaders[k], &c->hypothesis[i])) {
+            k++;
+        }
+        if (k == count) {
+            leaders[count++] = c->hypothesis[i];
+        } else if (c->hypothesis[i].held_out_rmse < leaders[k].held_out_rmse) {
+            leaders[k] = c->hypothesis[i];
+        }
+    }
+    qsort(leaders, count, sizeof *leaders, by_held_out);
+    return count;
+}
+
+/// A hypothesis and one more effect, and once tried what became of them together.
+typedef struct {
+    const hypothesis_t* base;
+    const hypothesis_t* further; ///< with one effect
+    hypothesis_t fitted;
+} extension_t;
+
+typedef struct {
+    const candidates_t* c;
+    extension_t* extension;
+    hypothesis_t* refined; ///< [REFINED] in c, of the best extensions
+} extensions_t;
+
+static int by_fit(const void* a, const void* b)
+{
+    const double x = ((const extension_t*)a)->fitted.fit_rmse;
+    const double y = ((const extension_t*)b)->fitted.fit_rmse;
+    return (x > y) - (x < y);
+}
+
+static hypothesis_t joined(const hypothesis_t* base, const hypothesis_t* further)
+{
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    memcpy(uses, base->use, base->num_uses * sizeof *uses);
+    uses[base->num_uses] = further->use[0];
+    return hypothesis_of(uses, base->num_uses + 1);
+}
+
+/// Briefly: from what each was alone, and with the further effect from its start, since beside the others it may
+/// be another size than alone.
+static void try_extension(void* context, size_t index)
+{
+    const candidates_t* c = ((const extensions_t*)context)->c;
+    extension_t* e = &((const extensions_t*)context)->extension[index];
+    e->fitted = joined(e->base, e->further);
+    hypothesis_fit(&e->fitted, c->gap, -1, BRIEF_EVALUATIONS);
+    hypothesis_t from_start = joined(e->base, e->further);
+    hypothesis_set_start(&from_start, c->gap, 0);
+    memcpy(from_start.use, e->base->use, e->base->num_uses * sizeof *from_start.use);
+    (void)guess_parameters(c, e->base->predicted, &from_start.use[e->base->num_uses]);
+    hypothesis_fit(&from_start, c->gap, -1, BRIEF_EVALUATIONS);
+    e->fitted = from_start.fit_rmse < e->fitted.fit_rmse ? from_start : e->fitted;
+}
+
+/// Further from there and from all starts, and judged.
+static void refine(void* context, size_t index)
+{
+    const extensions_t* extensions = context;
+    const gap_t* gap = extensions->c->gap;
+    hypothesis_t* hypothesis = &extensions->refined[index];
+    hypothesis_t brief = extensions->extension[index].fitted;
+    hypothesis_fit(&brief, gap, -1, SINGLE_EVALUATIONS);
+    hypothesis_search(hypothesis, gap, false, SINGLE_EVALUATIONS);
+    if (brief.fit_rmse < hypothesis->fit_rmse) {
+        memcpy(hypothesis->use, brief.use, sizeof hypothesis->use);
+        hypothesis->fit_rmse = brief.fit_rmse;
+        hypothesis_predict(hypothesis, gap);
+    }
+    hypothesis_judge(hypothesis, gap);
+}
+
+static void add_best(candidates_t* c, extension_t* extension, size_t count, parallel_progress_t brief,
+                     parallel_progress_t long_one)
+{
+    extensions_t extensions = {c, extension, &c->hypothesis[c->count]};
+    parallel_for(count, c->num_threads, try_extension, &extensions, brief);
+    qsort(extension, count, sizeof *extension, by_fit);
+    const size_t num_refined = count < REFINED ? count : REFINED;
+    for (size_t k = 0; k < num_refined; k++) {
+        (void)add(c, extension[k].fitted.use, extension[k].fitted.num_uses);
+    }
+    parallel_for(num_refined, c->num_threads, refine, &extensions, long_one);
+}
+
+void candidates_add_pairs(candidates_t* c)
+{
+    hypothesis_t leader[MAX_SINGLES];
+    const size_t singles = leading_singles(c, leader);
+    extension_t* pair = xcalloc(singles * LEADING_SINGLES + 1, sizeof *pair);
+    size_t count = 0;
+    for (size_t i = 0; i < singles && i < LEADING_SINGLES; i++) {
+        for (size_t j = i + 1; j < singles; j++) {
+            pair[count++] = (extension_t){.base = &leader[i], .further = &leader[j]};
+        }
+    }
+    add_best(c, pair, count, (parallel_progress_t){"diagnose", 0.4, 0.6}, (parallel_progress_t){"diagnose", 0.6, 0.75});
+    free(pair);
+}
+
+void candidates_add_triples(candidates_t* c)
+{
+    hypothesis_t leader[MAX_SINGLES];
+    const size_t singles = leading_singles(c, leader);
+    const hypothesis_t* best = NULL;
+    for (size_t i = c->num_singles + 1; i < c->count; i++) {
+        if (c->hypothesis[i].num_uses == 2 &&
+            (best == NULL || c->hypothesis[i].held_out_rmse < best->held_out_rmse)) {
+            best = &c->hypothesis[i];
+        }
+    }
+    extension_t triple[MAX_SINGLES];
+    size_t count = 0;
+    for (size_t j = 0; best != NULL && j < singles; j++) {
+        if (!hypothesis_names_use(best, &leader[j].use[0])) {
+            triple[count++] = (extension_t){.base = best, .further = &leader[j]};
+        }
+    }
+    add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.75, 0.8}, (parallel_progress_t){"diagnose", 0.8, 0.9});
+}

@@ -1,0 +1,140 @@
+#include "diagnose_verdict.h"
+
+#include "diagnose_structure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Of what is left above the floor, an effect more must take away at least this part: less than that another
+/// effect's free parameters take from a body's own misfit, or from the first effect's physics being a little other than
+/// the plant's.
+static const double part_to_gain = 0.4;
+/// Grain in parts of floor and gap.
+static const double floor_grain = 0.08;
+static const double gap_grain = 4e-3;
+/// How much a body that stood in for the plays may itself be off, in parts of its correction's energy.
+static const double correction_doubt = 0.06;
+/// Weight of a hypothesis is the ratio of what is left to this power.
+static const double sharpness = 8;
+
+scale_t scale_new(double noise, double misfit, double correction, double gap)
+{
+    scale_t scale = {.noise = noise};
+    const double known = fmax(misfit, noise);
+    // A body misfits more on other work than on its calibration (THEORY section 6).
+    scale.floor = known + (known - noise) + correction_doubt * correction;
+    scale.grain = floor_grain * scale.floor + gap_grain * gap;
+    return scale;
+}
+
+static double above_floor(const scale_t* scale, const hypothesis_t* hypothesis)
+{
+    return fmax(hypothesis_mean_square(hypothesis) - scale->floor, 0);
+}
+
+static double price_of(const hypothesis_t* hypothesis)
+{
+    double price = 0;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        price += 1 + hypothesis->use[i].effect->covers;
+    }
+    return -log(1 - part_to_gain) * price;
+}
+
+double verdict_score(const scale_t* scale, const hypothesis_t* hypothesis)
+{
+    return log(above_floor(scale, hypothesis) + scale->grain) + price_of(hypothesis);
+}
+
+size_t verdict_best(const scale_t* scale, const candidates_t* c)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < c->count; i++) {
+        best = verdict_score(scale, &c->hypothesis[i]) < verdict_score(scale, &c->hypothesis[best]) ? i : best;
+    }
+    return best;
+}
+
+/// Whether another hypothesis of the same names stands better, or as well and comes first.
+static bool is_shadowed(const scale_t* scale, const candidates_t* c, size_t i)
+{
+    const double own = verdict_score(scale, &c->hypothesis[i]);
+    for (size_t k = 0; k < c->count; k++) {
+        const double other = verdict_score(scale, &c->hypothesis[k]);
+        if (k != i && hypothesis_same_names(&c->hypothesis[i], &c->hypothesis[k]) &&
+            (other < own || (k < i && other <= own))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static double rms_distance(const double* a, const double* b, size_t n)
+{
+    double sum = 0;
+    for (size_t t = 0; t < n; t++) {
+        sum += (a[t] - b[t]) * (a[t] - b[t]);
+    }
+    return sqrt(sum / (double)n);
+}
+
+static int by_probability(const void* a, const void* b)
+{
+    const double x = ((const cause_t*)a)->probability;
+    const double y = ((const cause_t*)b)->probability;
+    return (x < y) - (x > y);
+}
+
+/// One cause for each set of names, the better mechanism's.
+static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
+{
+    const hypothesis_t* leader = &c->hypothesis[verdict_best(scale, c)];
+    const double best = verdict_score(scale, leader);
+    d->cause = xcalloc(c->count, sizeof *d->cause);
+    double total = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const hypothesis_t* h = &c->hypothesis[i];
+        if (!isfinite(h->held_out_rmse) || is_shadowed(scale, c, i)) {
+            continue;
+        }
+        cause_t* cause = &d->cause[d->num_causes++];
+        *cause = (cause_t){.hypothesis = h, .probability = exp(-sharpness * (verdict_score(scale, h) - best))};
+        cause->closeness = rms_distance(h->predicted, leader->predicted, c->gap->run->num_samples);
+        total += cause->probability;
+    }
+    for (size_t k = 0; k < d->num_causes; k++) {
+        d->cause[k].probability /= total;
+    }
+    qsort(d->cause, d->num_causes, sizeof *d->cause, by_probability);
+}
+
+/// The part of the residual that a flexible predictor still finds.
+static double structure_left(const gap_t* gap, const hypothesis_t* leader)
+{
+    const size_t n = gap->run->num_samples;
+    double* residual = xmalloc(n * sizeof *residual);
+    for (size_t t = 0; t < n; t++) {
+        residual[t] = gap->output[t] - leader->predicted[t];
+    }
+    const double structure = structure_found(gap, leader->predicted, residual);
+    free(residual);
+    return structure;
+}
+
+void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
+{
+    weigh(scale, c, d);
+    const hypothesis_t* leader = d->cause[0].hypothesis;
+    const double above = above_floor(scale, &c->hypothesis[0]);
+    const double left = above > 0 ? above_floor(scale, leader) / above : 0;
+    d->structure = structure_left(c->gap, leader);
+    d->is_unknown =
+        above_floor(scale, leader) > 0.5 * scale->floor && (left > 0.4 || (left > 0.15 && d->structure > 0.3));
+    d->is_none = leader->num_uses == 0 && !d->is_unknown;
+    for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
+        if (d->cause[k].probability > 0.2 * d->cause[0].probability && !d->is_unknown) {
+            d->indistinguishable[d->num_indistinguishable++] = k;
+        }
+    }
+    d->confident = d->is_unknown ? left > 0.6 : d->cause[0].probability >= 0.8 && !(left > 0.1 && left < 0.3);
+}

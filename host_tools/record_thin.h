@@ -1,0 +1,23 @@
+/// A long record as a short one on which effects run nearly as on the whole: full-rate stretches spread over
+/// it, and between them what carries the memory over.
+#ifndef HYST_HOST_RECORD_THIN_H
+#define HYST_HOST_RECORD_THIN_H
+
+#include "record.h"
+
+typedef struct {
+    record_t record; ///< owned
+    bool* carried;   ///< [num_samples] true: only there for the memory, not to be judged by; NULL: none is
+} thinned_t;
+
+/// record: with input and output. One of at most `most` samples (at least 1000) is copied as it is. Of a
+/// longer one at most so many are kept, with times of 1 s a sample where it has none:
+/// - 12 stretches as they are, evenly spread, the first and the last sample among them. The first quarter of
+///   each but the first is carried, so that what is fast has settled where the judging begins;
+/// - before each of them cells, short ones next to it and longer ones further back, and of each cell the
+///   samples of the least and the greatest input. So every turning point that a later move does not wipe out
+///   is kept but for those within a cell, and a fading memory sees its recent past more finely.
+thinned_t record_thin(const record_t* record, size_t most);
+void thinned_free(thinned_t* thinned);
+
+#endif
