@@ -233,8 +233,13 @@ static void search(work_t* w, double noise)
                         w->options->num_threads > 0 ? w->options->num_threads : parallel_processors());
     w->scale = scale_new(noise * noise, w->body.misfit * w->body.misfit, correction_of(w),
                          hypothesis_mean_square(&c->hypothesis[0]));
-    find_grid(w, noise);
     candidates_add_singles(c);
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < c->count; i++) {
+        least = fmin(least, hypothesis_mean_square(&c->hypothesis[i]));
+    }
+    scale_lower(&w->scale, least);
+    find_grid(w, noise);
     const double worth = 0.7 * w->scale.grain + w->scale.floor;
     if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->scale, c)]) > worth) {
         candidates_add_pairs(c);

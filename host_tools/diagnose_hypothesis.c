@@ -291,10 +291,42 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
     search_free(&s);
 }
 
+/// The best of evenly spread values of a hypothesis's only parameter: thresholds and delays give no gradient where
+/// they do not act.
+static hypothesis_t scan(const hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
+{
+    enum { POINTS = 24 };
+    hypothesis_t trial = *hypothesis;
+    hypothesis_t best = *hypothesis;
+    search_t s = search_new(&trial, gap, -1);
+    double* residual = xmalloc(num_residuals(&s) * sizeof *residual);
+    double least = HUGE_VAL;
+    for (size_t k = 0; k < POINTS; k++) {
+        const double part = 2 * ((double)k + 0.5) / POINTS - 1;
+        const double theta = asin(part);
+        double sum = 0;
+        (void)minpack_residual(&s, 0, 1, &theta, residual, 0);
+        for (size_t t = 0; t < num_residuals(&s); t++) {
+            sum += residual[t] * residual[t];
+        }
+        if (sum < least) {
+            least = sum;
+            memcpy(best.use, trial.use, sizeof best.use);
+        }
+    }
+    free(residual);
+    search_free(&s);
+    hypothesis_fit(&best, gap, -1, max_evaluations);
+    return best;
+}
+
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations)
 {
     hypothesis_t best = *hypothesis;
     best.fit_rmse = HUGE_VAL;
+    if (hypothesis->num_uses == 1 && hypothesis->use[0].effect->num_parameters == 1) {
+        best = scan(hypothesis, gap, max_evaluations);
+    }
     for (int start = guessed ? -1 : 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
         hypothesis_t trial = *hypothesis;
         if (start >= 0) {
@@ -331,6 +363,11 @@ static bool is_another(const hypothesis_t* hypothesis)
     return false;
 }
 
+double hypothesis_mean_square(const hypothesis_t* hypothesis)
+{
+    return hypothesis->is_another ? HUGE_VAL : hypothesis->fit_rmse * hypothesis->fit_rmse;
+}
+
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
 {
     double sum = 0;
@@ -354,5 +391,6 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         search_free(&s);
     }
     free(residual);
-    hypothesis->held_out_rmse = is_another(hypothesis) ? HUGE_VAL : sqrt(sum / (double)gap->num_judged);
+    hypothesis->held_out_rmse = sqrt(sum / (double)gap->num_judged);
+    hypothesis->is_another = is_another(hypothesis);
 }

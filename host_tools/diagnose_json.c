@@ -57,6 +57,7 @@ static json_t* cause_json(const cause_t* cause)
         json_pack("{s:o, s:f, s:f, s:f, s:f, s:f}", "effects", names_of(cause->hypothesis), "probability",
                   cause->probability, "rmse_after", cause->rmse_after, "shrink", cause->shrink, "shrink_low",
                   cause->shrink_low, "shrink_high", cause->shrink_high);
+    json_object_set_new(object, "rmse_judged", json_real(cause->hypothesis->fit_rmse));
     json_object_set_new(object, "parameters", parameters_to_json(cause->hypothesis));
     if (!is_transferable(cause->hypothesis)) {
         json_object_set_new(object, "transferable", json_false());
@@ -86,7 +87,7 @@ json_t* diagnosis_to_json(const diagnosis_t* d)
         json_array_append_new(where, region_json(&d->region[i]));
     }
     json_t* causes = json_array();
-    for (size_t k = 0; k < d->num_causes && k < 10; k++) {
+    for (size_t k = 0; k < d->num_causes && k < 12; k++) {
         json_array_append_new(causes, cause_json(&d->cause[k]));
     }
     return json_pack("{s:s, s:i, s:{s:I, s:I, s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o}", "format",

@@ -10,10 +10,6 @@
 enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
 enum { SINGLE_EVALUATIONS = 40, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
 
-double hypothesis_mean_square(const hypothesis_t* hypothesis)
-{
-    return hypothesis->held_out_rmse * hypothesis->held_out_rmse;
-}
 
 static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
 {
@@ -64,7 +60,7 @@ static bool guess_parameters(const candidates_t* c, const double* predicted, eff
     }
     const sinusoid_t peak = strongest_sinusoid(run->time, difference, run->num_samples);
     free(difference);
-    const double guess[] = {peak.frequency, peak.sine, peak.cosine};
+    const double guess[EFFECT_MAX_PARAMETERS] = {peak.frequency, peak.sine, peak.cosine};
     memcpy(use->parameter, guess, sizeof guess);
     return true;
 }
@@ -111,10 +107,10 @@ void candidates_add_singles(candidates_t* c)
     parallel_for(c->num_singles, c->num_threads, try_single, c, (parallel_progress_t){"diagnose", 0, 0.4});
 }
 
-static int by_held_out(const void* a, const void* b)
+static int by_mean_square(const void* a, const void* b)
 {
-    const double x = ((const hypothesis_t*)a)->held_out_rmse;
-    const double y = ((const hypothesis_t*)b)->held_out_rmse;
+    const double x = hypothesis_mean_square(a);
+    const double y = hypothesis_mean_square(b);
     return (x > y) - (x < y);
 }
 
@@ -130,11 +126,11 @@ static size_t leading_singles(const candidates_t* c, hypothesis_t* leaders)
         }
         if (k == count) {
             leaders[count++] = c->hypothesis[i];
-        } else if (c->hypothesis[i].held_out_rmse < leaders[k].held_out_rmse) {
+        } else if (hypothesis_mean_square(&c->hypothesis[i]) < hypothesis_mean_square(&leaders[k])) {
             leaders[k] = c->hypothesis[i];
         }
     }
-    qsort(leaders, count, sizeof *leaders, by_held_out);
+    qsort(leaders, count, sizeof *leaders, by_mean_square);
     return count;
 }
 
@@ -234,7 +230,7 @@ void candidates_add_triples(candidates_t* c)
     const hypothesis_t* best = NULL;
     for (size_t i = c->num_singles + 1; i < c->count; i++) {
         if (c->hypothesis[i].num_uses == 2 &&
-            (best == NULL || c->hypothesis[i].held_out_rmse < best->held_out_rmse)) {
+            (best == NULL || hypothesis_mean_square(&c->hypothesis[i]) < hypothesis_mean_square(best))) {
             best = &c->hypothesis[i];
         }
     }

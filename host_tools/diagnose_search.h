@@ -24,7 +24,4 @@ void candidates_add_pairs(candidates_t* candidates);
 /// The best pair of names with each further effect; likewise.
 void candidates_add_triples(candidates_t* candidates);
 
-/// Mean square of what a hypothesis leaves, held out; infinite where it is another one.
-double hypothesis_mean_square(const hypothesis_t* hypothesis);
-
 #endif

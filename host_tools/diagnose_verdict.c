@@ -10,21 +10,32 @@
 /// the plant's.
 static const double part_to_gain = 0.4;
 /// Grain in parts of floor and gap.
-static const double floor_grain = 0.08;
+static const double floor_grain = 0.2;
 static const double gap_grain = 4e-3;
 /// How much a body that stood in for the plays may itself be off, in parts of its correction's energy.
 static const double correction_doubt = 0.06;
-/// Weight of a hypothesis is the ratio of what is left to this power.
+/// Where one effect alone leaves less than the floor expected, the body cannot be much worse than that.
+static const double floor_over_least = 2;
+/// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are more
+/// hypotheses the more effects they have.
 static const double sharpness = 8;
+static const double prior = 0.3;
 
 scale_t scale_new(double noise, double misfit, double correction, double gap)
 {
-    scale_t scale = {.noise = noise};
     const double known = fmax(misfit, noise);
+    scale_t scale = {.noise = noise, .known = known};
     // A body misfits more on other work than on its calibration (THEORY section 6).
     scale.floor = known + (known - noise) + correction_doubt * correction;
     scale.grain = floor_grain * scale.floor + gap_grain * gap;
     return scale;
+}
+
+void scale_lower(scale_t* scale, double least)
+{
+    const double floor = fmin(scale->floor, fmax(scale->known, floor_over_least * least));
+    scale->grain += floor_grain * (floor - scale->floor);
+    scale->floor = floor;
 }
 
 static double above_floor(const scale_t* scale, const hypothesis_t* hypothesis)
@@ -43,7 +54,9 @@ static double price_of(const hypothesis_t* hypothesis)
 
 double verdict_score(const scale_t* scale, const hypothesis_t* hypothesis)
 {
-    return log(above_floor(scale, hypothesis) + scale->grain) + price_of(hypothesis);
+    // Far above the floor what is above it, far below it less and less.
+    const double above = hypothesis_mean_square(hypothesis) - scale->floor;
+    return log(0.5 * (above + sqrt(above * above + 4 * scale->grain * scale->grain))) + price_of(hypothesis);
 }
 
 size_t verdict_best(const scale_t* scale, const candidates_t* c)
@@ -94,11 +107,12 @@ static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     double total = 0;
     for (size_t i = 0; i < c->count; i++) {
         const hypothesis_t* h = &c->hypothesis[i];
-        if (!isfinite(h->held_out_rmse) || is_shadowed(scale, c, i)) {
+        if (h->is_another || is_shadowed(scale, c, i)) {
             continue;
         }
         cause_t* cause = &d->cause[d->num_causes++];
-        *cause = (cause_t){.hypothesis = h, .probability = exp(-sharpness * (verdict_score(scale, h) - best))};
+        const double weight = exp(-sharpness * (verdict_score(scale, h) - best));
+        *cause = (cause_t){.hypothesis = h, .probability = weight * pow(prior, (double)h->num_uses)};
         cause->closeness = rms_distance(h->predicted, leader->predicted, c->gap->run->num_samples);
         total += cause->probability;
     }

@@ -1,12 +1,12 @@
 /// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
-///     y' = y + amplitude_sin sin(2 pi frequency t) + amplitude_cos cos(2 pi frequency t)
-/// t: the record's own time. frequency > 0 [Hz], fitted between one period in the record and half the sample
+///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t), h = 1, 2, 3
+/// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time. frequency > 0 [Hz], fitted between one period in the record and half the sample
 /// rate; amplitudes [output units].
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
-enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS };
+enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS, HARMONICS = 3 };
 
 static const double two_pi = 6.283185307179586;
 
@@ -14,13 +14,18 @@ static const effect_parameter_t parameters[] = {
     [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},
     [AMPLITUDE_SIN] = {"amplitude_sin", "output", ANY_NUMBER},
     [AMPLITUDE_COS] = {"amplitude_cos", "output", ANY_NUMBER},
+    {"amplitude_sin_2", "output", ANY_NUMBER, .optional = true},
+    {"amplitude_cos_2", "output", ANY_NUMBER, .optional = true},
+    {"amplitude_sin_3", "output", ANY_NUMBER, .optional = true},
+    {"amplitude_cos_3", "output", ANY_NUMBER, .optional = true},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     if (parameter != FREQUENCY) {
         const double span = limits_output_span(run);
-        *result = limits_linear(-span, span, 0.0, 0.02 * span, -0.02 * span, 0.0);
+        const double start = parameter <= AMPLITUDE_COS ? 0.02 * span : 0.0;
+        *result = limits_linear(-span, span, 0.0, start, -start, 0.0);
         return;
     }
     const double low = 1.0 / run->duration;
@@ -35,7 +40,10 @@ static void add(const effect_run_t* run, const double* parameter, double sign, d
         // Whole periods off first, in the period's own unit: a late record keeps its phase.
         const double periods = parameter[FREQUENCY] * run->time[i];
         const double angle = two_pi * (periods - floor(periods));
-        series[i] += sign * (parameter[AMPLITUDE_SIN] * sin(angle) + parameter[AMPLITUDE_COS] * cos(angle));
+        for (int h = 0; h < HARMONICS; ++h) {
+            const double* amplitude = &parameter[AMPLITUDE_SIN + 2 * h];
+            series[i] += sign * (amplitude[0] * sin((h + 1) * angle) + amplitude[1] * cos((h + 1) * angle));
+        }
     }
 }
 
