@@ -20,27 +20,33 @@ static inline line_t present_line(const hyst_f32_model_t* model, const hyst_f32_
     return line;
 }
 
-/// The envelope at which other plays move.
-static inline float limit_of(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
-                             const line_t* line)
+/// How far the envelope is from where other plays move as well.
+static inline float play_room(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
+                              const bool rising, const line_t* line)
 {
     if (line->kept == 0) {
         return FLT_MAX;
     }
     const hyst_f32_segment_t* kept = &state->memory[line->kept - 1];
-    return hyst_f32_is_along(kept, rising) ? kept->level
-                                           : model->play[line->num_moving].opening - kept->level;
+    return hyst_f32_is_along(kept, rising)
+               ? kept->level - line->ahead
+               : model->play[line->num_moving].opening - (line->ahead + kept->level);
 }
 
-/// The end of the line, which `input` is beyond, or its beginning.
-static float limited(const line_t* line, const curves_t* curves, const float limit, const float input)
+/// The next plays move as well.
+static inline void pass_kink(const hyst_f32_state_t* state, const bool rising, line_t* line)
 {
-    const float kink = line->input + (limit - line->ahead) / curves->envelope_slope;
-    // A flat envelope gives no number where nothing limits it.
-    float x = kink < input ? kink : input;
-    x = x > line->input ? x : line->input;
-    return x < curves->end ? x : curves->end;
+    const hyst_f32_segment_t* kept = &state->memory[line->kept - 1];
+    if (hyst_f32_is_along(kept, rising) || line->num_moving >= kept->last) {
+        --line->kept;
+        line->num_moving = kept->last;
+    }
+    ++line->num_moving;
 }
+
+#ifndef TRIES
+#define TRIES 2
+#endif
 
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     float wanted)
@@ -53,21 +59,44 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     const float sign = hyst_f32_sign(rising);
     wanted = sign * wanted;
     line_t line = present_line(model, state, rising);
-    for (bool is_located = false;; is_located = true) {
+    for (int tries = TRIES;; --tries) {
         const curves_t curves = hyst_f32_curves(model, line.cell, rising);
-        const float limit = limit_of(model, state, rising, &line);
-        const float slope =
-            curves.offset_slope + hyst_f32_slope(model->play, line.num_moving) * curves.envelope_slope;
-        const float step = (wanted - line.output) / slope;
-        const float input = line.input + step;
-        if (step > 0.0f && input < curves.end && line.ahead + curves.envelope_slope * step <= limit) {
+        const float play = play_room(model, state, rising, &line);
+        float slope = curves.offset_slope;
+        if (line.num_moving != 0) {
+            slope += model->play[line.num_moving - 1].slope * curves.envelope_slope;
+        }
+        const float step = hyst_f32_larger((wanted - line.output) / slope, 0.0f);
+        float input = line.input + step;
+        if (input < curves.end && curves.envelope_slope * step <= play) {
             result.input = sign * input;
             return result;
         }
-        if (is_located) {
-            result.input = sign * limited(&line, &curves, limit, input);
+        float room = play / curves.envelope_slope;
+        const float kink = line.input + room;
+        if (tries < 0) {
+            // A flat envelope gives no number where nothing limits it.
+            input = kink < input ? kink : input;
+            input = input > line.input ? input : line.input;
+            result.input = sign * (input < curves.end ? input : curves.end);
             return result;
         }
-        hyst_f32_locate(model, state, rising, &wanted, &line, &result.clamped);
+        const bool is_kink = kink < curves.end;
+        if (tries == 0 || room < 0.0f || (!is_kink && line.cell == (rising ? hyst_f32_last_cell(model) : 0))) {
+            tries = 0;
+            hyst_f32_locate(model, state, rising, &wanted, &line, &result.clamped);
+            continue;
+        }
+        if (is_kink) {
+            line.input = kink;
+            line.ahead += play;
+            pass_kink(state, rising, &line);
+        } else {
+            room = curves.end - line.input;
+            line.input = curves.end;
+            line.cell = rising ? line.cell + 1 : line.cell - 1;
+            line.ahead = sign * hyst_f32_envelope(model, line.cell, sign * line.input, rising);
+        }
+        line.output += slope * room;
     }
 }

@@ -1,4 +1,4 @@
-/// The inverse's two halves: the answer on one line, and the search for the line.
+/// The inverse's two halves: following the line of the present point, and the search for a line further away.
 #ifndef HYST_F32_INVERSE_H
 #define HYST_F32_INVERSE_H
 
@@ -34,12 +34,6 @@ static inline curves_t hyst_f32_curves(const hyst_f32_model_t* model, const uint
     curves.offset_slope = knot->nonhysteretic_slope;
     curves.end = rising ? knot[1].input : -knot->input;
     return curves;
-}
-
-/// Slope of the plays' sum over the envelope.
-static inline float hyst_f32_slope(const hyst_f32_play_t* play, const uint32_t num_moving)
-{
-    return num_moving == 0 ? 0.0f : play[num_moving - 1].slope;
 }
 
 /// Moves the line's beginning to the line that crosses `wanted`, which is further away. When it is out of

@@ -1,66 +1,76 @@
 #include "hyst_f32_inverse.h"
 
-/// The envelope somewhere, and the part of the output that is known there: the plays' at a kink, the rest at
-/// a knot. In the direction of the move.
-typedef struct {
-    float ahead, part;
-} point_t;
-
-/// Counted in the direction of the move: `low` falls short of the wanted output, `high` does not.
-typedef struct {
-    uint32_t low, high, middle; ///< middle: the next to ask
-} bracket_t;
-
+/// What is looked for; does not change while it is.
 typedef struct {
     const hyst_f32_model_t* model;
     const hyst_f32_state_t* state;
     bool rising;
     float sign;
     float wanted;
-    bracket_t knots; ///< 0: the present input
-    point_t knot;    ///< at knots.low
-    bracket_t kinks;
-    point_t kink; ///< at kinks.low
+    float plays;  ///< the plays' part of the present output
     float turned; ///< sum[rising] of the front
 } search_t;
 
-/// The envelope is at shift + width where the kink is; `sum` is the plays' there.
+/// The beginning of a line in a cell: the curves there, and the ratio of their slopes.
+typedef struct {
+    curves_t curves;
+    float input, ahead, offset, ratio;
+} cell_t;
+
+/// Knots of the table by index: the output at `near` falls short of the wanted one, at `far` it does not.
+/// `start` stands for the line's beginning, which is no knot.
+typedef struct {
+    uint32_t near, far, start;
+} knots_t;
+
+/// Where the plays of a segment, or the next one of them, start to move: when the envelope is at shift +
+/// width. `sum` is that of all plays there.
 typedef struct {
     float shift, width, sum;
 } kink_t;
 
-static inline bool is_open(const bracket_t* bracket)
+/// The plays' sum over the envelope a: end - (top - (loading + slope ((a - shift) - opening))).
+typedef struct {
+    float shift, opening, loading, slope, top, end;
+} stretch_t;
+
+static inline uint32_t middle_of(const knots_t* knots)
 {
-    return bracket->high - bracket->low > 1;
+    return (knots->near + knots->far) / 2;
 }
 
-static inline void narrow(bracket_t* bracket, const bool is_short)
+/// Whether `middle` lies between the two, in either direction.
+static inline bool is_between(const knots_t* knots, const uint32_t middle)
 {
-    if (is_short) {
-        bracket->low = bracket->middle;
-    } else {
-        bracket->high = bracket->middle;
+    return middle != knots->near && middle != knots->far;
+}
+
+static inline float ahead_at(const search_t* search, const hyst_f32_knot_t* knot)
+{
+    return search->sign * (search->rising ? knot->ascending : knot->descending);
+}
+
+static inline float offset_at(const search_t* search, const hyst_f32_knot_t* knot)
+{
+    return search->sign * (search->model->constant + knot->nonhysteretic);
+}
+
+static cell_t cell_of(const search_t* search, const knots_t* knots, const line_t* line)
+{
+    const uint32_t index = search->rising ? knots->near : knots->far;
+    cell_t cell;
+    cell.input = line->input;
+    if (knots->near != knots->start) {
+        cell.input = search->sign * search->model->knot[knots->near].input;
     }
-    bracket->middle = bracket->low + (bracket->high - bracket->low) / 2;
+    const float v = search->sign * cell.input;
+    cell.curves = hyst_f32_curves(search->model, index, search->rising);
+    cell.offset = search->sign * hyst_f32_offset(search->model, index, v);
+    cell.ahead = search->sign * hyst_f32_envelope(search->model, index, v, search->rising);
+    cell.ratio = hyst_f32_limit(cell.curves.offset_slope / cell.curves.envelope_slope, 0.0f, FLT_MAX);
+    return cell;
 }
 
-static inline point_t knot_at(const search_t* search, const uint32_t count)
-{
-    const uint32_t cell = search->state->cell;
-    const hyst_f32_knot_t* knot =
-        &search->model->knot[search->rising ? cell + count : cell + 1 - count];
-    const point_t point = {search->sign * (search->rising ? knot->ascending : knot->descending),
-                           search->sign * (search->model->constant + knot->nonhysteretic)};
-    return point;
-}
-
-/// The cell that begins at the knot.
-static inline uint32_t cell_from(const search_t* search, const uint32_t count)
-{
-    return search->rising ? search->state->cell + count : search->state->cell - count;
-}
-
-/// Where a segment is taken.
 static inline kink_t end_of_segment(const search_t* search, const uint32_t index)
 {
     const hyst_f32_segment_t* segment = &search->state->memory[index];
@@ -75,135 +85,150 @@ static inline kink_t end_of_segment(const search_t* search, const uint32_t index
     return kink;
 }
 
-/// Where the play starts to move over a segment that was left in the other direction.
-static inline kink_t opening_of(const search_t* search, const kink_t* end, const float loading,
+static inline kink_t opening_of(const search_t* search, const kink_t* end, const float top,
                                 const uint32_t index)
 {
     const hyst_f32_play_t* play = &search->model->play[index];
-    const kink_t kink = {end->shift, play->opening, end->sum - (loading - play->loading)};
+    const kink_t kink = {end->shift, play->opening, end->sum - (top - play->loading)};
     return kink;
 }
 
-/// Slope of the output's other part over the envelope in the cell that the knots leave.
-static float ratio_of(const search_t* search)
-{
-    const curves_t curves =
-        hyst_f32_curves(search->model, cell_from(search, search->knots.low), search->rising);
-    return hyst_f32_limit(curves.offset_slope / curves.envelope_slope, 0.0f, FLT_MAX);
-}
-
-/// One question, which halves either the knots or the kinks.
-static inline void ask(search_t* search, const kink_t* kink)
-{
-    point_t knot = search->knot;
-    point_t at_kink = {kink->shift + kink->width, kink->sum};
-    bool is_beyond = false;
-    const bool is_knot_open = is_open(&search->knots);
-    if (is_knot_open) {
-        knot = knot_at(search, search->knots.middle);
-        is_beyond = knot.ahead - kink->shift > kink->width;
-    } else {
-        knot.part = knot.part + ratio_of(search) * (at_kink.ahead - knot.ahead);
-    }
-    const bool is_short = knot.part + kink->sum < search->wanted;
-    if (is_knot_open && is_short != is_beyond) {
-        narrow(&search->knots, is_short);
-        if (is_short) {
-            search->knot = knot;
-        }
-    } else {
-        narrow(&search->kinks, is_short);
-        if (is_short) {
-            search->kink = at_kink;
-        }
-    }
-}
-
-static void set_kinks(search_t* search, const uint32_t low, const uint32_t high)
-{
-    search->kinks.low = low;
-    search->kinks.high = high;
-    search->kinks.middle = low + 1;
-}
-
-static void search_kinks(search_t* search, line_t* line)
+static void search_kinks(const search_t* search, knots_t* knots, line_t* line)
 {
     const hyst_f32_segment_t* memory = search->state->memory;
-    const uint32_t kept = line->kept;
-    set_kinks(search, 0, kept + 1);
-    while (is_open(&search->kinks)) {
-        const kink_t kink = end_of_segment(search, kept - search->kinks.middle);
-        ask(search, &kink);
-    }
-    line->kept = kept - search->kinks.low;
-    if (search->kinks.low != 0) {
-        line->num_moving = memory[line->kept].last + 1u;
-    }
-    if (line->kept == 0 || hyst_f32_is_along(&memory[line->kept - 1], search->rising)) {
-        return;
-    }
-    const uint32_t last = memory[line->kept - 1].last;
-    const kink_t end = end_of_segment(search, line->kept - 1);
-    set_kinks(search, line->num_moving, last + 1u);
-    while (is_open(&search->kinks)) {
-        const kink_t kink = opening_of(search, &end, search->model->play[last].loading, search->kinks.middle - 1);
-        ask(search, &kink);
-    }
-    line->num_moving = search->kinks.low;
-}
-
-/// The plays' sum at `ahead`, in the arithmetic of a step, when the line's plays move.
-static float sum_at(const search_t* search, const line_t* line, const float ahead)
-{
-    const hyst_f32_model_t* model = search->model;
-    const float present = search->sign * search->state->plays;
-    if (line->num_moving == 0) {
-        return present;
-    }
-    if (line->kept == 0) {
-        return hyst_f32_larger(present, hyst_f32_over_none(model, ahead));
-    }
-    const hyst_f32_segment_t* kept = &search->state->memory[line->kept - 1];
-    const bool along = hyst_f32_is_along(kept, search->rising);
-    const float end = end_of_segment(search, line->kept - 1).sum;
-    return hyst_f32_larger(present, hyst_f32_over(model->play, kept, along, end, line->num_moving - 1,
-                                                  hyst_f32_beyond(kept, along, ahead)));
-}
-
-static void search_knots(search_t* search, const line_t* line)
-{
-    while (is_open(&search->knots)) {
-        const point_t knot = knot_at(search, search->knots.middle);
-        const bool is_short = knot.part + sum_at(search, line, knot.ahead) < search->wanted;
-        narrow(&search->knots, is_short);
+    const uint32_t present = line->kept;
+    uint32_t low = 0;
+    uint32_t high = present + 1;
+    bool is_over = false;
+    kink_t end = {0.0f, 0.0f, 0.0f};
+    float top = 0.0f;
+    bool is_cell = false;
+    cell_t cell = {{0.0f, 0.0f, 0.0f}, 0.0f, 0.0f, 0.0f, 0.0f};
+    for (;;) {
+        const uint32_t middle = (low + high) / 2;
+        if (middle == low) {
+            if (is_over) {
+                line->num_moving = low;
+                return;
+            }
+            line->kept = present - low;
+            if (low != 0) {
+                line->num_moving = memory[line->kept].last + 1u;
+            }
+            if (line->kept == 0 || hyst_f32_is_along(&memory[line->kept - 1], search->rising)) {
+                return;
+            }
+            is_over = true;
+            end = end_of_segment(search, line->kept - 1);
+            high = memory[line->kept - 1].last + 1u;
+            top = search->model->play[high - 1].loading;
+            low = line->num_moving;
+            continue;
+        }
+        const kink_t kink = is_over ? opening_of(search, &end, top, middle - 1)
+                                    : end_of_segment(search, present - middle);
+        bool is_short = false;
+        for (;;) {
+            const uint32_t m = middle_of(knots);
+            if (!is_between(knots, m)) {
+                if (!is_cell) {
+                    cell = cell_of(search, knots, line);
+                    is_cell = true;
+                }
+                is_short = cell.offset + cell.ratio * (kink.shift + kink.width - cell.ahead) + kink.sum <
+                           search->wanted;
+                break;
+            }
+            const hyst_f32_knot_t* knot = &search->model->knot[m];
+            const float beyond = ahead_at(search, knot) - kink.shift;
+            if (offset_at(search, knot) + kink.sum < search->wanted) {
+                if (beyond > kink.width) {
+                    is_short = true;
+                    break;
+                }
+                knots->near = m;
+            } else {
+                if (!(beyond > kink.width)) {
+                    break;
+                }
+                knots->far = m;
+            }
+        }
         if (is_short) {
-            search->knot = knot;
+            low = middle;
+            line->ahead = kink.shift + kink.width;
+        } else {
+            high = middle;
         }
     }
 }
 
-/// The line begins at the knot or the kink, whichever comes later.
-static void begin(const search_t* search, line_t* line)
+static inline stretch_t stretch_of(const search_t* search, const line_t* line)
 {
     const hyst_f32_model_t* model = search->model;
-    line->cell = cell_from(search, search->knots.low);
-    if (search->knots.low != 0) {
-        line->input = search->sign * model->knot[search->rising ? line->cell : line->cell + 1].input;
+    stretch_t stretch = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, search->plays};
+    if (line->num_moving == 0) {
+        return stretch;
     }
-    const point_t knot = search->knot;
-    const point_t kink = search->kink;
-    if (kink.ahead > knot.ahead) {
-        const curves_t curves = hyst_f32_curves(model, line->cell, search->rising);
-        const float step = (kink.ahead - knot.ahead) / curves.envelope_slope;
+    const hyst_f32_play_t* moving = &model->play[line->num_moving - 1];
+    stretch.slope = moving->slope;
+    stretch.end = -model->moment;
+    if (line->kept != 0) {
+        const kink_t end = end_of_segment(search, line->kept - 1);
+        stretch.end = end.sum;
+        stretch.shift = end.shift;
+        if (!hyst_f32_is_along(&search->state->memory[line->kept - 1], search->rising)) {
+            stretch.opening = moving->opening;
+            stretch.loading = moving->loading;
+            stretch.top = model->play[search->state->memory[line->kept - 1].last].loading;
+        }
+    }
+    return stretch;
+}
+
+static inline float sum_at(const stretch_t* stretch, const float ahead)
+{
+    const float x = ahead - stretch->shift - stretch->opening;
+    return stretch->end - (stretch->top - (stretch->loading + stretch->slope * x));
+}
+
+static void search_knots(const search_t* search, const stretch_t* stretch, knots_t* knots)
+{
+    for (uint32_t middle = middle_of(knots); is_between(knots, middle); middle = middle_of(knots)) {
+        const hyst_f32_knot_t* knot = &search->model->knot[middle];
+        const float sum = hyst_f32_larger(sum_at(stretch, ahead_at(search, knot)), search->plays);
+        if (offset_at(search, knot) + sum < search->wanted) {
+            knots->near = middle;
+        } else {
+            knots->far = middle;
+        }
+    }
+}
+
+/// Moves the line to the one that crosses the wanted output, if it does not lie beyond `end`; true if that
+/// was shown.
+static bool search_line(const search_t* search, const uint32_t end, line_t* line)
+{
+    knots_t knots = {0, end, 0};
+    knots.start = search->rising ? line->cell : line->cell + 1;
+    knots.near = knots.start;
+    line->ahead = -FLT_MAX;
+    search_kinks(search, &knots, line);
+    const stretch_t stretch = stretch_of(search, line);
+    search_knots(search, &stretch, &knots);
+    const cell_t cell = cell_of(search, &knots, line);
+    line->cell = search->rising ? knots.near : knots.far;
+    line->input = cell.input;
+    float offset = cell.offset;
+    if (line->ahead > cell.ahead) {
+        const float step = (line->ahead - cell.ahead) / cell.curves.envelope_slope;
         line->input += step;
-        line->ahead = kink.ahead;
-        line->output = knot.part + curves.offset_slope * step + kink.part;
+        offset += cell.curves.offset_slope * step;
     } else {
-        line->ahead = knot.ahead;
-        line->output =
-            knot.part +
-            (kink.part + hyst_f32_slope(model->play, line->num_moving) * (knot.ahead - kink.ahead));
+        line->ahead = cell.ahead;
     }
+    line->output = offset + sum_at(&stretch, line->ahead);
+    return knots.far != end;
 }
 
 /// The output at the end of the range.
@@ -214,7 +239,7 @@ static float reach_of(const search_t* search)
     const float input = rising ? model->input_max : model->input_min;
     const uint32_t cell = rising ? hyst_f32_last_cell(model) : 0;
     hyst_f32_front_t front;
-    float plays = search->sign * search->state->plays;
+    float plays = search->plays;
     if (hyst_f32_meet(model, search->state, rising,
                       search->sign * hyst_f32_envelope(model, cell, input, rising), &front)) {
         plays = hyst_f32_larger(front.sum, plays);
@@ -225,33 +250,30 @@ static float reach_of(const search_t* search)
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
                      float* wanted, line_t* line, bool* clamped)
 {
+    const line_t from = *line;
     search_t search;
     search.model = model;
     search.state = state;
     search.rising = rising;
     search.sign = hyst_f32_sign(rising);
+    search.wanted = *wanted;
+    search.plays = search.sign * state->plays;
+    search.turned = search.plays;
+    if (!hyst_f32_is_along(&state->memory[state->front], rising)) {
+        search.turned = hyst_f32_end_of(model, state->memory, state->front, rising);
+    }
+    const uint32_t end = rising ? hyst_f32_last_cell(model) + 1 : 0;
+    if (search_line(&search, end, line)) {
+        return;
+    }
     const float reach = reach_of(&search);
     if (reach < *wanted) {
         *clamped = true;
         *wanted = reach;
-        if (!(line->output < reach)) {
-            return;
+        search.wanted = reach;
+        *line = from;
+        if (line->output < reach) {
+            (void)search_line(&search, end, line);
         }
     }
-    search.wanted = *wanted;
-    const float plays = search.sign * state->plays;
-    search.kink.ahead = line->ahead;
-    search.kink.part = plays;
-    search.knot.ahead = line->ahead;
-    search.knot.part = search.sign * hyst_f32_offset(model, state->cell, state->input);
-    search.knots.low = 0;
-    search.knots.high = rising ? hyst_f32_last_cell(model) + 1 - state->cell : state->cell + 1;
-    search.knots.middle = 1;
-    search.turned = 0.0f;
-    if (!hyst_f32_is_along(&state->memory[state->front], rising)) {
-        search.turned = hyst_f32_end_of(model, state->memory, state->front, rising);
-    }
-    search_kinks(&search, line);
-    search_knots(&search, line);
-    begin(&search, line);
 }
