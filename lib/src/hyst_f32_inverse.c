@@ -1,40 +1,20 @@
 #include "hyst_f32_inverse.h"
 
-/// The line of the present point.
-static inline line_t present_line(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
-                                  const bool rising)
-{
-    const hyst_f32_segment_t* top = &state->memory[state->front];
-    const float sign = hyst_f32_sign(rising);
-    line_t line;
-    line.input = sign * state->input;
-    line.output = sign * state->output;
-    line.ahead = sign * hyst_f32_envelope(model, state->cell, state->input, rising);
-    line.cell = state->cell;
-    line.kept = state->front + 1;
-    line.num_moving = 0;
-    if (hyst_f32_is_along(top, rising) && line.ahead >= top->level) {
-        line.kept = state->front;
-        line.num_moving = top->last + 1u;
-    }
-    return line;
-}
-
 /// How far the envelope is from where other plays move as well.
 static inline float play_room(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
-                              const bool rising, const line_t* line)
+                              const bool rising, const hyst_f32_line_t* line, const float ahead)
 {
     if (line->kept == 0) {
         return FLT_MAX;
     }
     const hyst_f32_segment_t* kept = &state->memory[line->kept - 1];
     return hyst_f32_is_along(kept, rising)
-               ? kept->level - line->ahead
-               : model->play[line->num_moving].opening - (line->ahead + kept->level);
+               ? kept->level - ahead
+               : model->play[line->num_moving].opening - (ahead + kept->level);
 }
 
 /// The next plays move as well.
-static inline void pass_kink(const hyst_f32_state_t* state, const bool rising, line_t* line)
+static inline void pass_kink(const hyst_f32_state_t* state, const bool rising, hyst_f32_line_t* line)
 {
     const hyst_f32_segment_t* kept = &state->memory[line->kept - 1];
     if (hyst_f32_is_along(kept, rising) || line->num_moving >= kept->last) {
@@ -45,7 +25,7 @@ static inline void pass_kink(const hyst_f32_state_t* state, const bool rising, l
 }
 
 #ifndef TRIES
-#define TRIES 2
+#define TRIES 4
 #endif
 
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
@@ -58,15 +38,21 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     }
     const float sign = hyst_f32_sign(rising);
     wanted = sign * wanted;
-    line_t line = present_line(model, state, rising);
+    hyst_f32_line_t line = {sign * state->input, sign * state->output, state->cell, state->front + 1, 0};
+    hyst_f32_curves_t curves = hyst_f32_curves(model, line.cell, rising, line.input);
+    const hyst_f32_segment_t* top = &state->memory[state->front];
+    if (hyst_f32_is_along(top, rising) && curves.ahead >= top->level) {
+        line.kept = state->front;
+        line.num_moving = top->last + 1u;
+    }
     for (int tries = TRIES;; --tries) {
-        const curves_t curves = hyst_f32_curves(model, line.cell, rising);
-        const float play = play_room(model, state, rising, &line);
+        const float play = play_room(model, state, rising, &line, curves.ahead);
         float slope = curves.offset_slope;
         if (line.num_moving != 0) {
             slope += model->play[line.num_moving - 1].slope * curves.envelope_slope;
         }
-        const float step = hyst_f32_larger((wanted - line.output) / slope, 0.0f);
+        const float rest = wanted - line.output;
+        const float step = hyst_f32_larger(rest / slope, 0.0f);
         float input = line.input + step;
         if (input < curves.end && curves.envelope_slope * step <= play) {
             result.input = sign * input;
@@ -85,18 +71,16 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         if (tries == 0 || room < 0.0f || (!is_kink && line.cell == (rising ? hyst_f32_last_cell(model) : 0))) {
             tries = 0;
             hyst_f32_locate(model, state, rising, &wanted, &line, &result.clamped);
-            continue;
-        }
-        if (is_kink) {
+        } else if (is_kink) {
             line.input = kink;
-            line.ahead += play;
+            line.output += slope * room;
             pass_kink(state, rising, &line);
         } else {
             room = curves.end - line.input;
             line.input = curves.end;
+            line.output += slope * room;
             line.cell = rising ? line.cell + 1 : line.cell - 1;
-            line.ahead = sign * hyst_f32_envelope(model, line.cell, sign * line.input, rising);
         }
-        line.output += slope * room;
+        curves = hyst_f32_curves(model, line.cell, rising, line.input);
     }
 }

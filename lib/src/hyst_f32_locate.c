@@ -11,12 +11,6 @@ typedef struct {
     float turned; ///< sum[rising] of the front
 } search_t;
 
-/// The beginning of a line in a cell: the curves there, and the ratio of their slopes.
-typedef struct {
-    curves_t curves;
-    float input, ahead, offset, ratio;
-} cell_t;
-
 /// Knots of the table by index: the output at `near` falls short of the wanted one, at `far` it does not.
 /// `start` stands for the line's beginning, which is no knot.
 typedef struct {
@@ -55,20 +49,20 @@ static inline float offset_at(const search_t* search, const hyst_f32_knot_t* kno
     return search->sign * (search->model->constant + knot->nonhysteretic);
 }
 
-static cell_t cell_of(const search_t* search, const knots_t* knots, const line_t* line)
+static hyst_f32_curves_t curves_of(const search_t* search, const uint32_t cell, const float input)
 {
-    const uint32_t index = search->rising ? knots->near : knots->far;
-    cell_t cell;
-    cell.input = line->input;
-    if (knots->near != knots->start) {
-        cell.input = search->sign * search->model->knot[knots->near].input;
-    }
-    const float v = search->sign * cell.input;
-    cell.curves = hyst_f32_curves(search->model, index, search->rising);
-    cell.offset = search->sign * hyst_f32_offset(search->model, index, v);
-    cell.ahead = search->sign * hyst_f32_envelope(search->model, index, v, search->rising);
-    cell.ratio = hyst_f32_limit(cell.curves.offset_slope / cell.curves.envelope_slope, 0.0f, FLT_MAX);
-    return cell;
+    return hyst_f32_curves(search->model, cell, search->rising, input);
+}
+
+/// The input at `near`.
+static inline float near_input(const search_t* search, const knots_t* knots, const hyst_f32_line_t* line)
+{
+    return knots->near == knots->start ? line->input : search->sign * search->model->knot[knots->near].input;
+}
+
+static inline uint32_t cell_of(const search_t* search, const knots_t* knots)
+{
+    return search->rising ? knots->near : knots->far;
 }
 
 static inline kink_t end_of_segment(const search_t* search, const uint32_t index)
@@ -93,7 +87,7 @@ static inline kink_t opening_of(const search_t* search, const kink_t* end, const
     return kink;
 }
 
-static void search_kinks(const search_t* search, knots_t* knots, line_t* line)
+static float search_kinks(const search_t* search, knots_t* knots, hyst_f32_line_t* line)
 {
     const hyst_f32_segment_t* memory = search->state->memory;
     const uint32_t present = line->kept;
@@ -103,20 +97,22 @@ static void search_kinks(const search_t* search, knots_t* knots, line_t* line)
     kink_t end = {0.0f, 0.0f, 0.0f};
     float top = 0.0f;
     bool is_cell = false;
-    cell_t cell = {{0.0f, 0.0f, 0.0f}, 0.0f, 0.0f, 0.0f, 0.0f};
+    hyst_f32_curves_t cell = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    float ratio = 0.0f;
+    float ahead = -FLT_MAX;
     for (;;) {
         const uint32_t middle = (low + high) / 2;
         if (middle == low) {
             if (is_over) {
                 line->num_moving = low;
-                return;
+                return ahead;
             }
             line->kept = present - low;
             if (low != 0) {
                 line->num_moving = memory[line->kept].last + 1u;
             }
             if (line->kept == 0 || hyst_f32_is_along(&memory[line->kept - 1], search->rising)) {
-                return;
+                return ahead;
             }
             is_over = true;
             end = end_of_segment(search, line->kept - 1);
@@ -132,10 +128,11 @@ static void search_kinks(const search_t* search, knots_t* knots, line_t* line)
             const uint32_t m = middle_of(knots);
             if (!is_between(knots, m)) {
                 if (!is_cell) {
-                    cell = cell_of(search, knots, line);
+                    cell = curves_of(search, cell_of(search, knots), near_input(search, knots, line));
+                    ratio = hyst_f32_limit(cell.offset_slope / cell.envelope_slope, 0.0f, FLT_MAX);
                     is_cell = true;
                 }
-                is_short = cell.offset + cell.ratio * (kink.shift + kink.width - cell.ahead) + kink.sum <
+                is_short = cell.offset + ratio * (kink.shift + kink.width - cell.ahead) + kink.sum <
                            search->wanted;
                 break;
             }
@@ -156,14 +153,14 @@ static void search_kinks(const search_t* search, knots_t* knots, line_t* line)
         }
         if (is_short) {
             low = middle;
-            line->ahead = kink.shift + kink.width;
+            ahead = kink.shift + kink.width;
         } else {
             high = middle;
         }
     }
 }
 
-static inline stretch_t stretch_of(const search_t* search, const line_t* line)
+static inline stretch_t stretch_of(const search_t* search, const hyst_f32_line_t* line)
 {
     const hyst_f32_model_t* model = search->model;
     stretch_t stretch = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, search->plays};
@@ -207,27 +204,24 @@ static void search_knots(const search_t* search, const stretch_t* stretch, knots
 
 /// Moves the line to the one that crosses the wanted output, if it does not lie beyond `end`; true if that
 /// was shown.
-static bool search_line(const search_t* search, const uint32_t end, line_t* line)
+static bool search_line(const search_t* search, const uint32_t end, hyst_f32_line_t* line)
 {
     knots_t knots = {0, end, 0};
     knots.start = search->rising ? line->cell : line->cell + 1;
     knots.near = knots.start;
-    line->ahead = -FLT_MAX;
-    search_kinks(search, &knots, line);
+    const float kink = search_kinks(search, &knots, line);
     const stretch_t stretch = stretch_of(search, line);
     search_knots(search, &stretch, &knots);
-    const cell_t cell = cell_of(search, &knots, line);
-    line->cell = search->rising ? knots.near : knots.far;
-    line->input = cell.input;
-    float offset = cell.offset;
-    if (line->ahead > cell.ahead) {
-        const float step = (line->ahead - cell.ahead) / cell.curves.envelope_slope;
+    line->cell = cell_of(search, &knots);
+    line->input = near_input(search, &knots, line);
+    hyst_f32_curves_t cell = curves_of(search, line->cell, line->input);
+    if (kink > cell.ahead) {
+        const float step = (kink - cell.ahead) / cell.envelope_slope;
         line->input += step;
-        offset += cell.curves.offset_slope * step;
-    } else {
-        line->ahead = cell.ahead;
+        cell.offset += cell.offset_slope * step;
+        cell.ahead = kink;
     }
-    line->output = offset + sum_at(&stretch, line->ahead);
+    line->output = cell.offset + sum_at(&stretch, cell.ahead);
     return knots.far != end;
 }
 
@@ -236,21 +230,20 @@ static float reach_of(const search_t* search)
 {
     const hyst_f32_model_t* model = search->model;
     const bool rising = search->rising;
-    const float input = rising ? model->input_max : model->input_min;
-    const uint32_t cell = rising ? hyst_f32_last_cell(model) : 0;
+    const hyst_f32_curves_t curves = curves_of(search, rising ? hyst_f32_last_cell(model) : 0,
+                                               rising ? model->input_max : -model->input_min);
     hyst_f32_front_t front;
     float plays = search->plays;
-    if (hyst_f32_meet(model, search->state, rising,
-                      search->sign * hyst_f32_envelope(model, cell, input, rising), &front)) {
+    if (hyst_f32_meet(model, search->state, rising, curves.ahead, &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
-    return search->sign * hyst_f32_offset(model, cell, input) + plays;
+    return curves.offset + plays;
 }
 
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
-                     float* wanted, line_t* line, bool* clamped)
+                     float* wanted, hyst_f32_line_t* line, bool* clamped)
 {
-    const line_t from = *line;
+    const hyst_f32_line_t from = *line;
     search_t search;
     search.model = model;
     search.state = state;
