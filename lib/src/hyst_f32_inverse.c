@@ -39,13 +39,15 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     const float sign = hyst_f32_sign(rising);
     wanted = sign * wanted;
     hyst_f32_line_t line = {sign * state->input, sign * state->output, state->cell, state->front + 1, 0};
-    hyst_f32_curves_t curves = hyst_f32_curves(model, line.cell, rising, line.input);
-    const hyst_f32_segment_t* top = &state->memory[state->front];
-    if (hyst_f32_is_along(top, rising) && curves.ahead >= top->level) {
-        line.kept = state->front;
-        line.num_moving = top->last + 1u;
-    }
     for (int tries = TRIES;; --tries) {
+        const hyst_f32_curves_t curves = hyst_f32_curves(model, line.cell, rising, line.input);
+        if (tries == TRIES) {
+            const hyst_f32_segment_t* top = &state->memory[state->front];
+            if (hyst_f32_is_along(top, rising) && curves.ahead >= top->level) {
+                line.kept = state->front;
+                line.num_moving = top->last + 1u;
+            }
+        }
         const float play = play_room(model, state, rising, &line, curves.ahead);
         float slope = curves.offset_slope;
         if (line.num_moving != 0) {
@@ -81,6 +83,5 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
             line.output += slope * room;
             line.cell = rising ? line.cell + 1 : line.cell - 1;
         }
-        curves = hyst_f32_curves(model, line.cell, rising, line.input);
     }
 }

@@ -14,10 +14,10 @@ typedef struct {
     uint32_t num_moving; ///< plays 0 ... num_moving - 1 move
 } hyst_f32_line_t;
 
-/// The curves in a cell, in the direction of the move: slopes, values at an input, and the cell's end.
+/// The curves in a cell, in the direction of the move: their slopes, the envelope at an input, the cell's end.
 typedef struct {
     float envelope_slope, offset_slope;
-    float ahead, offset;
+    float ahead;
     float end;
 } hyst_f32_curves_t;
 
@@ -30,17 +30,14 @@ static inline hyst_f32_curves_t hyst_f32_curves(const hyst_f32_model_t* model, c
         curves.envelope_slope = 1.0f;
         curves.offset_slope = model->nonhysteretic_slope;
         curves.ahead = input;
-        curves.offset = sign * model->constant + model->nonhysteretic_slope * input;
         curves.end = sign * (rising ? model->input_max : model->input_min);
         return curves;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
-    const float along = input - sign * knot->input;
     curves.envelope_slope = rising ? knot->ascending_slope : knot->descending_slope;
     curves.offset_slope = knot->nonhysteretic_slope;
-    curves.ahead = sign * (rising ? knot->ascending : knot->descending) + curves.envelope_slope * along;
-    curves.offset =
-        sign * model->constant + (sign * knot->nonhysteretic + knot->nonhysteretic_slope * along);
+    curves.ahead = sign * (rising ? knot->ascending : knot->descending) +
+                   curves.envelope_slope * (input - sign * knot->input);
     curves.end = sign * (rising ? knot[1].input : knot->input);
     return curves;
 }

@@ -8,7 +8,7 @@ typedef struct {
     float sign;
     float wanted;
     float plays;  ///< the plays' part of the present output
-    float turned; ///< sum[rising] of the front
+    float turned; ///< sum[rising] of the front, if it was left in the other direction
 } search_t;
 
 /// Knots of the table by index: the output at `near` falls short of the wanted one, at `far` it does not.
@@ -17,16 +17,17 @@ typedef struct {
     uint32_t near, far, start;
 } knots_t;
 
-/// Where the plays of a segment, or the next one of them, start to move: when the envelope is at shift +
-/// width. `sum` is that of all plays there.
+/// Where a play, or all of a segment, starts to move: when the envelope is at shift + width. `sum` is that of
+/// all plays there.
 typedef struct {
     float shift, width, sum;
 } kink_t;
 
-/// The plays' sum over the envelope a: end - (top - (loading + slope ((a - shift) - opening))).
+/// The curves where a cell begins, and the ratio of their slopes.
 typedef struct {
-    float shift, opening, loading, slope, top, end;
-} stretch_t;
+    hyst_f32_curves_t curves;
+    float input, offset, ratio;
+} cell_t;
 
 static inline uint32_t middle_of(const knots_t* knots)
 {
@@ -49,61 +50,84 @@ static inline float offset_at(const search_t* search, const hyst_f32_knot_t* kno
     return search->sign * (search->model->constant + knot->nonhysteretic);
 }
 
-static hyst_f32_curves_t curves_of(const search_t* search, const uint32_t cell, const float input)
-{
-    return hyst_f32_curves(search->model, cell, search->rising, input);
-}
-
-/// The input at `near`.
-static inline float near_input(const search_t* search, const knots_t* knots, const hyst_f32_line_t* line)
-{
-    return knots->near == knots->start ? line->input : search->sign * search->model->knot[knots->near].input;
-}
-
-static inline uint32_t cell_of(const search_t* search, const knots_t* knots)
+static inline uint32_t cell_after(const search_t* search, const knots_t* knots)
 {
     return search->rising ? knots->near : knots->far;
 }
 
-static inline kink_t end_of_segment(const search_t* search, const uint32_t index)
+static void begin_cell(const search_t* search, const knots_t* knots, const float start, cell_t* cell)
 {
-    const hyst_f32_segment_t* segment = &search->state->memory[index];
-    kink_t kink = {segment->level, 0.0f, segment->sum[search->rising]};
-    if (!hyst_f32_is_along(segment, search->rising)) {
-        kink.shift = -segment->level;
-        kink.width = search->model->play[segment->last].opening;
-        if (index == search->state->front) {
-            kink.sum = search->turned;
-        }
+    const uint32_t index = cell_after(search, knots);
+    const float v = knots->near == knots->start ? search->sign * start : search->model->knot[knots->near].input;
+    cell->input = search->sign * v;
+    cell->curves = hyst_f32_curves(search->model, index, search->rising, cell->input);
+    cell->offset = search->sign * hyst_f32_offset(search->model, index, v);
+    cell->ratio = hyst_f32_limit(cell->curves.offset_slope / cell->curves.envelope_slope, 0.0f, FLT_MAX);
+}
+
+static inline float end_sum(const search_t* search, const hyst_f32_segment_t* segment, const bool along)
+{
+    return !along && segment == &search->state->memory[search->state->front] ? search->turned
+                                                                               : segment->sum[search->rising];
+}
+
+/// The kink of a play over a segment that was left in the other direction, or the end of one that was not.
+static inline kink_t kink_of(const search_t* search, const hyst_f32_segment_t* segment, const uint32_t index)
+{
+    const bool along = hyst_f32_is_along(segment, search->rising);
+    kink_t kink = {segment->level, 0.0f, end_sum(search, segment, along)};
+    if (!along) {
+        const hyst_f32_play_t* play = search->model->play;
+        kink.shift = -kink.shift;
+        kink.width = play[index].opening;
+        kink.sum -= play[segment->last].loading - play[index].loading;
     }
     return kink;
 }
 
-static inline kink_t opening_of(const search_t* search, const kink_t* end, const float top,
-                                const uint32_t index)
+/// Whether the output at the kink falls short. Narrows the knots until that is known.
+static inline bool is_kink_short(const search_t* search, const kink_t* kink, const float start,
+                                 knots_t* knots, cell_t* cell)
 {
-    const hyst_f32_play_t* play = &search->model->play[index];
-    const kink_t kink = {end->shift, play->opening, end->sum - (top - play->loading)};
-    return kink;
+    for (;;) {
+        const uint32_t middle = middle_of(knots);
+        if (!is_between(knots, middle)) {
+            break;
+        }
+        const hyst_f32_knot_t* knot = &search->model->knot[middle];
+        const bool is_beyond = ahead_at(search, knot) - kink->shift > kink->width;
+        if (offset_at(search, knot) + kink->sum < search->wanted) {
+            if (is_beyond) {
+                return true;
+            }
+            knots->near = middle;
+        } else {
+            if (!is_beyond) {
+                return false;
+            }
+            knots->far = middle;
+        }
+    }
+    if (!(cell->ratio >= 0.0f)) {
+        begin_cell(search, knots, start, cell);
+    }
+    return cell->offset + cell->ratio * (kink->shift + kink->width - cell->curves.ahead) + kink->sum <
+           search->wanted;
 }
 
-static float search_kinks(const search_t* search, knots_t* knots, hyst_f32_line_t* line)
+/// Returns the envelope at the last kink that falls short.
+static float search_kinks(const search_t* search, knots_t* knots, cell_t* cell, hyst_f32_line_t* line)
 {
     const hyst_f32_segment_t* memory = search->state->memory;
+    const hyst_f32_segment_t* over = NULL;
     const uint32_t present = line->kept;
     uint32_t low = 0;
     uint32_t high = present + 1;
-    bool is_over = false;
-    kink_t end = {0.0f, 0.0f, 0.0f};
-    float top = 0.0f;
-    bool is_cell = false;
-    hyst_f32_curves_t cell = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    float ratio = 0.0f;
     float ahead = -FLT_MAX;
     for (;;) {
         const uint32_t middle = (low + high) / 2;
         if (middle == low) {
-            if (is_over) {
+            if (over != NULL) {
                 line->num_moving = low;
                 return ahead;
             }
@@ -111,47 +135,17 @@ static float search_kinks(const search_t* search, knots_t* knots, hyst_f32_line_
             if (low != 0) {
                 line->num_moving = memory[line->kept].last + 1u;
             }
-            if (line->kept == 0 || hyst_f32_is_along(&memory[line->kept - 1], search->rising)) {
+            if (line->kept == 0) {
                 return ahead;
             }
-            is_over = true;
-            end = end_of_segment(search, line->kept - 1);
-            high = memory[line->kept - 1].last + 1u;
-            top = search->model->play[high - 1].loading;
+            over = &memory[line->kept - 1];
             low = line->num_moving;
+            high = hyst_f32_is_along(over, search->rising) ? low : over->last + 1u;
             continue;
         }
-        const kink_t kink = is_over ? opening_of(search, &end, top, middle - 1)
-                                    : end_of_segment(search, present - middle);
-        bool is_short = false;
-        for (;;) {
-            const uint32_t m = middle_of(knots);
-            if (!is_between(knots, m)) {
-                if (!is_cell) {
-                    cell = curves_of(search, cell_of(search, knots), near_input(search, knots, line));
-                    ratio = hyst_f32_limit(cell.offset_slope / cell.envelope_slope, 0.0f, FLT_MAX);
-                    is_cell = true;
-                }
-                is_short = cell.offset + ratio * (kink.shift + kink.width - cell.ahead) + kink.sum <
-                           search->wanted;
-                break;
-            }
-            const hyst_f32_knot_t* knot = &search->model->knot[m];
-            const float beyond = ahead_at(search, knot) - kink.shift;
-            if (offset_at(search, knot) + kink.sum < search->wanted) {
-                if (beyond > kink.width) {
-                    is_short = true;
-                    break;
-                }
-                knots->near = m;
-            } else {
-                if (!(beyond > kink.width)) {
-                    break;
-                }
-                knots->far = m;
-            }
-        }
-        if (is_short) {
+        const hyst_f32_segment_t* segment = over != NULL ? over : &memory[present - middle];
+        const kink_t kink = kink_of(search, segment, over != NULL ? middle - 1 : segment->last);
+        if (is_kink_short(search, &kink, line->input, knots, cell)) {
             low = middle;
             ahead = kink.shift + kink.width;
         } else {
@@ -160,69 +154,49 @@ static float search_kinks(const search_t* search, knots_t* knots, hyst_f32_line_
     }
 }
 
-static inline stretch_t stretch_of(const search_t* search, const hyst_f32_line_t* line)
+/// The plays' sum at `ahead`, in the arithmetic of a step, when the line's plays move.
+static float sum_at(const search_t* search, const hyst_f32_line_t* line, const float ahead)
 {
     const hyst_f32_model_t* model = search->model;
-    stretch_t stretch = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, search->plays};
     if (line->num_moving == 0) {
-        return stretch;
+        return search->plays;
     }
-    const hyst_f32_play_t* moving = &model->play[line->num_moving - 1];
-    stretch.slope = moving->slope;
-    stretch.end = -model->moment;
-    if (line->kept != 0) {
-        const kink_t end = end_of_segment(search, line->kept - 1);
-        stretch.end = end.sum;
-        stretch.shift = end.shift;
-        if (!hyst_f32_is_along(&search->state->memory[line->kept - 1], search->rising)) {
-            stretch.opening = moving->opening;
-            stretch.loading = moving->loading;
-            stretch.top = model->play[search->state->memory[line->kept - 1].last].loading;
-        }
+    if (line->kept == 0) {
+        return hyst_f32_larger(hyst_f32_over_none(model, ahead), search->plays);
     }
-    return stretch;
+    const hyst_f32_segment_t* kept = &search->state->memory[line->kept - 1];
+    const bool along = hyst_f32_is_along(kept, search->rising);
+    const float sum = hyst_f32_over(model->play, kept, along, end_sum(search, kept, along), line->num_moving - 1,
+                                    hyst_f32_beyond(kept, along, ahead));
+    return hyst_f32_larger(sum, search->plays);
 }
 
-static inline float sum_at(const stretch_t* stretch, const float ahead)
+/// Moves the line to the one that crosses the wanted output.
+static void search_line(const search_t* search, const uint32_t end, hyst_f32_line_t* line)
 {
-    const float x = ahead - stretch->shift - stretch->opening;
-    return stretch->end - (stretch->top - (stretch->loading + stretch->slope * x));
-}
-
-static void search_knots(const search_t* search, const stretch_t* stretch, knots_t* knots)
-{
-    for (uint32_t middle = middle_of(knots); is_between(knots, middle); middle = middle_of(knots)) {
+    const uint32_t start = search->rising ? line->cell : line->cell + 1;
+    knots_t knots = {start, end, start};
+    cell_t cell;
+    cell.ratio = -1.0f;
+    const float kink = search_kinks(search, &knots, &cell, line);
+    for (uint32_t middle = middle_of(&knots); is_between(&knots, middle); middle = middle_of(&knots)) {
         const hyst_f32_knot_t* knot = &search->model->knot[middle];
-        const float sum = hyst_f32_larger(sum_at(stretch, ahead_at(search, knot)), search->plays);
-        if (offset_at(search, knot) + sum < search->wanted) {
-            knots->near = middle;
+        if (offset_at(search, knot) + sum_at(search, line, ahead_at(search, knot)) < search->wanted) {
+            knots.near = middle;
         } else {
-            knots->far = middle;
+            knots.far = middle;
         }
     }
-}
-
-/// Moves the line to the one that crosses the wanted output, if it does not lie beyond `end`; true if that
-/// was shown.
-static bool search_line(const search_t* search, const uint32_t end, hyst_f32_line_t* line)
-{
-    knots_t knots = {0, end, 0};
-    knots.start = search->rising ? line->cell : line->cell + 1;
-    knots.near = knots.start;
-    const float kink = search_kinks(search, &knots, line);
-    const stretch_t stretch = stretch_of(search, line);
-    search_knots(search, &stretch, &knots);
-    line->cell = cell_of(search, &knots);
-    line->input = near_input(search, &knots, line);
-    hyst_f32_curves_t cell = curves_of(search, line->cell, line->input);
-    if (kink > cell.ahead) {
-        const float step = (kink - cell.ahead) / cell.envelope_slope;
+    begin_cell(search, &knots, line->input, &cell);
+    line->cell = cell_after(search, &knots);
+    line->input = cell.input;
+    if (kink > cell.curves.ahead) {
+        const float step = (kink - cell.curves.ahead) / cell.curves.envelope_slope;
         line->input += step;
-        cell.offset += cell.offset_slope * step;
-        cell.ahead = kink;
+        cell.offset += cell.curves.offset_slope * step;
+        cell.curves.ahead = kink;
     }
-    line->output = cell.offset + sum_at(&stretch, cell.ahead);
-    return knots.far != end;
+    line->output = cell.offset + sum_at(search, line, cell.curves.ahead);
 }
 
 /// The output at the end of the range.
@@ -230,43 +204,39 @@ static float reach_of(const search_t* search)
 {
     const hyst_f32_model_t* model = search->model;
     const bool rising = search->rising;
-    const hyst_f32_curves_t curves = curves_of(search, rising ? hyst_f32_last_cell(model) : 0,
-                                               rising ? model->input_max : -model->input_min);
+    const float input = rising ? model->input_max : model->input_min;
+    const uint32_t cell = rising ? hyst_f32_last_cell(model) : 0;
     hyst_f32_front_t front;
     float plays = search->plays;
-    if (hyst_f32_meet(model, search->state, rising, curves.ahead, &front)) {
+    if (hyst_f32_meet(model, search->state, rising,
+                      search->sign * hyst_f32_envelope(model, cell, input, rising), &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
-    return curves.offset + plays;
+    return search->sign * hyst_f32_offset(model, cell, input) + plays;
 }
 
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
                      float* wanted, hyst_f32_line_t* line, bool* clamped)
 {
-    const hyst_f32_line_t from = *line;
     search_t search;
     search.model = model;
     search.state = state;
     search.rising = rising;
     search.sign = hyst_f32_sign(rising);
-    search.wanted = *wanted;
     search.plays = search.sign * state->plays;
-    search.turned = search.plays;
+    search.wanted = reach_of(&search);
+    if (*wanted <= search.wanted) {
+        search.wanted = *wanted;
+    } else {
+        *wanted = search.wanted;
+        *clamped = true;
+        if (!(line->output < search.wanted)) {
+            return;
+        }
+    }
+    search.turned = 0.0f;
     if (!hyst_f32_is_along(&state->memory[state->front], rising)) {
         search.turned = hyst_f32_end_of(model, state->memory, state->front, rising);
     }
-    const uint32_t end = rising ? hyst_f32_last_cell(model) + 1 : 0;
-    if (search_line(&search, end, line)) {
-        return;
-    }
-    const float reach = reach_of(&search);
-    if (reach < *wanted) {
-        *clamped = true;
-        *wanted = reach;
-        search.wanted = reach;
-        *line = from;
-        if (line->output < reach) {
-            (void)search_line(&search, end, line);
-        }
-    }
+    search_line(&search, rising ? hyst_f32_last_cell(model) + 1 : 0, line);
 }
