@@ -24,6 +24,17 @@ static inline void pass_kink(const hyst_f32_state_t* state, const bool rising, h
     ++line->num_moving;
 }
 
+/// Whether all plays together would take cells for it.
+static inline bool is_far(const hyst_f32_model_t* model, const uint32_t cell, const hyst_f32_curves_t* curves,
+                          const float rest)
+{
+    if (model->num_knots == 0) {
+        return false;
+    }
+    const float steepest = curves->offset_slope + model->play[model->num_plays - 1].slope * curves->envelope_slope;
+    return rest > 3.0f * (model->knot[cell + 1].input - model->knot[cell].input) * steepest;
+}
+
 #ifndef TRIES
 #define TRIES 4
 #endif
@@ -68,6 +79,9 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
             input = input > line.input ? input : line.input;
             result.input = sign * (input < curves.end ? input : curves.end);
             return result;
+        }
+        if (tries == TRIES && is_far(model, line.cell, &curves, rest)) {
+            tries = 0;
         }
         const bool is_kink = kink < curves.end;
         if (tries == 0 || room < 0.0f || (!is_kink && line.cell == (rising ? hyst_f32_last_cell(model) : 0))) {

@@ -154,21 +154,41 @@ static float search_kinks(const search_t* search, knots_t* knots, cell_t* cell, 
     }
 }
 
-/// The plays' sum at `ahead`, in the arithmetic of a step, when the line's plays move.
-static float sum_at(const search_t* search, const hyst_f32_line_t* line, const float ahead)
+/// The plays' sum over the envelope a in one piece: end - (top - (loading + slope ((a - shift) - opening))),
+/// which are a step's operations, with zeros where it has none.
+typedef struct {
+    float shift, opening, loading, slope, top, end;
+} piece_t;
+
+static inline piece_t piece_of(const search_t* search, const hyst_f32_line_t* line)
 {
     const hyst_f32_model_t* model = search->model;
+    piece_t piece = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, search->plays};
     if (line->num_moving == 0) {
-        return search->plays;
+        return piece;
     }
-    if (line->kept == 0) {
-        return hyst_f32_larger(hyst_f32_over_none(model, ahead), search->plays);
+    const hyst_f32_play_t* last = &model->play[line->num_moving - 1];
+    piece.slope = last->slope;
+    piece.end = -model->moment;
+    if (line->kept != 0) {
+        const hyst_f32_segment_t* kept = &search->state->memory[line->kept - 1];
+        const bool along = hyst_f32_is_along(kept, search->rising);
+        piece.end = end_sum(search, kept, along);
+        piece.shift = kept->level;
+        if (!along) {
+            piece.shift = -kept->level;
+            piece.opening = last->opening;
+            piece.loading = last->loading;
+            piece.top = model->play[kept->last].loading;
+        }
     }
-    const hyst_f32_segment_t* kept = &search->state->memory[line->kept - 1];
-    const bool along = hyst_f32_is_along(kept, search->rising);
-    const float sum = hyst_f32_over(model->play, kept, along, end_sum(search, kept, along), line->num_moving - 1,
-                                    hyst_f32_beyond(kept, along, ahead));
-    return hyst_f32_larger(sum, search->plays);
+    return piece;
+}
+
+static inline float sum_at(const search_t* search, const piece_t* piece, const float ahead)
+{
+    const float x = ahead - piece->shift - piece->opening;
+    return hyst_f32_larger(piece->end - (piece->top - (piece->loading + piece->slope * x)), search->plays);
 }
 
 /// Moves the line to the one that crosses the wanted output.
@@ -179,9 +199,10 @@ static void search_line(const search_t* search, const uint32_t end, hyst_f32_lin
     cell_t cell;
     cell.ratio = -1.0f;
     const float kink = search_kinks(search, &knots, &cell, line);
+    const piece_t piece = piece_of(search, line);
     for (uint32_t middle = middle_of(&knots); is_between(&knots, middle); middle = middle_of(&knots)) {
         const hyst_f32_knot_t* knot = &search->model->knot[middle];
-        if (offset_at(search, knot) + sum_at(search, line, ahead_at(search, knot)) < search->wanted) {
+        if (offset_at(search, knot) + sum_at(search, &piece, ahead_at(search, knot)) < search->wanted) {
             knots.near = middle;
         } else {
             knots.far = middle;
@@ -196,7 +217,7 @@ static void search_line(const search_t* search, const uint32_t end, hyst_f32_lin
         cell.offset += cell.curves.offset_slope * step;
         cell.curves.ahead = kink;
     }
-    line->output = cell.offset + sum_at(search, line, cell.curves.ahead);
+    line->output = cell.offset + sum_at(search, &piece, cell.curves.ahead);
 }
 
 /// The output at the end of the range.
