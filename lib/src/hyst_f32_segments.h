@@ -114,6 +114,12 @@ typedef struct {
 bool hyst_f32_meet(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising, float ahead,
                    hyst_f32_front_t* front);
 
+/// Moves the state to v, finite and in `cell`, whatever the move is.
+float hyst_f32_move(const hyst_f32_model_t* model, hyst_f32_state_t* state, uint32_t cell, float v);
+
+/// A step of any input: one that is no number, out of range or far away.
+float hyst_f32_step_anywhere(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
+
 /// Sets both sums of segments 0 ... front from their levels and plays, as the moves would have.
 void hyst_f32_sum_up(const hyst_f32_model_t* model, hyst_f32_segment_t* memory, uint32_t front);
 
