@@ -56,16 +56,17 @@ typedef struct {
     uint16_t rising; ///< 1: left by a rising input, 0: by a falling one
 } hyst_f32_segment_t;
 
-/// The state, caller-owned, in RAM. Fields may be read; only the functions below write them.
+/// The state, caller-owned, in RAM. Fields may be read; only the functions below write them. Floats and
+/// integers take turns, lest a compiler store two floats at once, late, and hold up the next step by that.
 typedef struct {
     hyst_f32_segment_t*
         memory;     ///< the caller's array [num_plays]; segments 0, the outermost, to `front` are in use
     uint32_t front; ///< the segment of the plays that moved last
-    uint32_t cell;  ///< the table's cell that holds `input`
     float input;    ///< the last input applied, after clamping
-    float output;   ///< the output it gave
-    float plays;    ///< the plays' part of it
+    uint32_t cell;  ///< the table's cell that holds `input`
+    float plays;    ///< the plays' part of `output`
     uint32_t invalid_inputs; ///< inputs that were NaN (stops counting at UINT32_MAX)
+    float output;            ///< the output that `input` gave
     uint32_t clamped_inputs; ///< inputs outside [input_min, input_max], infinities included (likewise)
 } hyst_f32_state_t;
 
