@@ -40,7 +40,7 @@ static inline bool is_near(const hyst_f32_model_t* model, uint32_t* cell, const 
     return *cell + 1 > 0 && input >= knot[-1].input;
 }
 
-enum { MOST_OPENINGS = 4 };
+enum { MOST_OPENINGS = 8 };
 
 /// The move that goes on: the front's plays move along, perhaps with the next few, and no segment is taken,
 /// or no play moves at all. Returns the plays' part in the direction of the move, `present` where none moves;
@@ -70,11 +70,10 @@ static inline bool extend(const hyst_f32_model_t* model, hyst_f32_state_t* state
             // No segment is taken, so that the next opening is there.
             const uint32_t most = last + MOST_OPENINGS;
             do {
-                ++last;
-            } while (x > model->play[last + 1].opening && last < most);
-            if (x > model->play[last + 1].opening) {
-                return false;
-            }
+                if (++last > most) {
+                    return false;
+                }
+            } while (x > model->play[last + 1].opening);
             top->last = (uint16_t)last;
         }
         sum = hyst_f32_over(model->play, kept, along, kept->sum[rising], last, x);
