@@ -40,7 +40,7 @@ static inline bool is_near(const hyst_f32_model_t* model, uint32_t* cell, const 
     return *cell + 1 > 0 && input >= knot[-1].input;
 }
 
-enum { MOST_OPENINGS = 8 };
+enum { MOST_OPENINGS = 9 };
 
 /// The move that goes on: the front's plays move along, perhaps with the next few, and no segment is taken,
 /// or no play moves at all. Returns the plays' part in the direction of the move, `present` where none moves;
@@ -68,12 +68,15 @@ static inline bool extend(const hyst_f32_model_t* model, hyst_f32_state_t* state
         }
         if (!along && x > model->play[last + 1].opening) {
             // No segment is taken, so that the next opening is there.
-            const uint32_t most = last + MOST_OPENINGS;
+            uint32_t left = MOST_OPENINGS;
+            const hyst_f32_play_t* next = &model->play[last + 1];
             do {
-                if (++last > most) {
+                if (--left == 0) {
                     return false;
                 }
-            } while (x > model->play[last + 1].opening);
+                ++next;
+            } while (x > next->opening);
+            last += MOST_OPENINGS - left;
             top->last = (uint16_t)last;
         }
         sum = hyst_f32_over(model->play, kept, along, kept->sum[rising], last, x);
