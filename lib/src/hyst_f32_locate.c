@@ -55,14 +55,19 @@ static inline uint32_t cell_after(const search_t* search, const knots_t* knots)
     return search->rising ? knots->near : knots->far;
 }
 
-static void begin_cell(const search_t* search, const knots_t* knots, const float start, cell_t* cell)
+static void set_cell(const search_t* search, const uint32_t index, const float v, cell_t* cell)
 {
-    const uint32_t index = cell_after(search, knots);
-    const float v = knots->near == knots->start ? search->sign * start : search->model->knot[knots->near].input;
     cell->input = search->sign * v;
     cell->curves = hyst_f32_curves(search->model, index, search->rising, cell->input);
     cell->offset = search->sign * hyst_f32_offset(search->model, index, v);
     cell->ratio = hyst_f32_limit(cell->curves.offset_slope / cell->curves.envelope_slope, 0.0f, FLT_MAX);
+}
+
+static void begin_cell(const search_t* search, const knots_t* knots, const float start, cell_t* cell)
+{
+    const float v =
+        knots->near == knots->start ? search->sign * start : search->model->knot[knots->near].input;
+    set_cell(search, cell_after(search, knots), v, cell);
 }
 
 static inline float end_sum(const search_t* search, const hyst_f32_segment_t* segment, const bool along)
@@ -225,15 +230,14 @@ static float reach_of(const search_t* search)
 {
     const hyst_f32_model_t* model = search->model;
     const bool rising = search->rising;
-    const float input = rising ? model->input_max : model->input_min;
-    const uint32_t cell = rising ? hyst_f32_last_cell(model) : 0;
     hyst_f32_front_t front;
+    cell_t cell;
+    set_cell(search, rising ? hyst_f32_last_cell(model) : 0, rising ? model->input_max : model->input_min, &cell);
     float plays = search->plays;
-    if (hyst_f32_meet(model, search->state, rising,
-                      search->sign * hyst_f32_envelope(model, cell, input, rising), &front)) {
+    if (hyst_f32_meet(model, search->state, rising, cell.curves.ahead, &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
-    return search->sign * hyst_f32_offset(model, cell, input) + plays;
+    return cell.offset + plays;
 }
 
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
