@@ -35,9 +35,8 @@ static inline bool is_far(const hyst_f32_model_t* model, const uint32_t cell, co
     return rest > 3.0f * (model->knot[cell + 1].input - model->knot[cell].input) * steepest;
 }
 
-#ifndef TRIES
-#define TRIES 4
-#endif
+/// Lines that are followed before the search.
+enum { MOST_LINES = 4 };
 
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     float wanted)
@@ -50,15 +49,14 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     const float sign = hyst_f32_sign(rising);
     wanted = sign * wanted;
     hyst_f32_line_t line = {sign * state->input, sign * state->output, state->cell, state->front + 1, 0};
-    for (int tries = TRIES;; --tries) {
-        const hyst_f32_curves_t curves = hyst_f32_curves(model, line.cell, rising, line.input);
-        if (tries == TRIES) {
-            const hyst_f32_segment_t* top = &state->memory[state->front];
-            if (hyst_f32_is_along(top, rising) && curves.ahead >= top->level) {
-                line.kept = state->front;
-                line.num_moving = top->last + 1u;
-            }
-        }
+    hyst_f32_curves_t curves = hyst_f32_curves(model, line.cell, rising, line.input);
+    const hyst_f32_segment_t* top = &state->memory[state->front];
+    if (hyst_f32_is_along(top, rising) && curves.ahead >= top->level) {
+        line.kept = state->front;
+        line.num_moving = top->last + 1u;
+    }
+    int left = MOST_LINES;
+    for (;;) {
         const float play = play_room(model, state, rising, &line, curves.ahead);
         float slope = curves.offset_slope;
         if (line.num_moving != 0) {
@@ -71,31 +69,35 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
             result.input = sign * input;
             return result;
         }
-        float room = play / curves.envelope_slope;
+        const float room = play / curves.envelope_slope;
         const float kink = line.input + room;
-        if (tries < 0) {
+        if (left < 0) {
             // A flat envelope gives no number where nothing limits it.
             input = kink < input ? kink : input;
             input = input > line.input ? input : line.input;
             result.input = sign * (input < curves.end ? input : curves.end);
             return result;
         }
-        if (tries == TRIES && is_far(model, line.cell, &curves, rest)) {
-            tries = 0;
+        if (left == MOST_LINES && is_far(model, line.cell, &curves, rest)) {
+            left = 0;
         }
         const bool is_kink = kink < curves.end;
-        if (tries == 0 || room < 0.0f || (!is_kink && line.cell == (rising ? hyst_f32_last_cell(model) : 0))) {
-            tries = 0;
-            hyst_f32_locate(model, state, rising, &wanted, &line, &result.clamped);
-        } else if (is_kink) {
+        --left;
+        if (is_kink && left >= 0 && room >= 0.0f) {
             line.input = kink;
             line.output += slope * room;
+            curves.ahead += play;
             pass_kink(state, rising, &line);
+            continue;
+        }
+        if (is_kink || left < 0 || line.cell == (rising ? hyst_f32_last_cell(model) : 0)) {
+            left = -1;
+            hyst_f32_locate(model, state, rising, &wanted, &line, &result.clamped);
         } else {
-            room = curves.end - line.input;
+            line.output += slope * (curves.end - line.input);
             line.input = curves.end;
-            line.output += slope * room;
             line.cell = rising ? line.cell + 1 : line.cell - 1;
         }
+        curves = hyst_f32_curves(model, line.cell, rising, line.input);
     }
 }
