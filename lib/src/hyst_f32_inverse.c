@@ -41,13 +41,14 @@ enum { MOST_LINES = 4 };
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     float wanted)
 {
-    hyst_f32_inverse_t result = {state->input, hyst_f32_is_nan(wanted)};
     const bool rising = wanted > state->output;
     if (!rising && !(wanted < state->output)) {
-        return result;
+        const hyst_f32_inverse_t held = {state->input, hyst_f32_is_nan(wanted)};
+        return held;
     }
     const float sign = hyst_f32_sign(rising);
     wanted = sign * wanted;
+    bool clamped = false;
     hyst_f32_line_t line = {sign * state->input, sign * state->output, state->cell, state->front + 1, 0};
     hyst_f32_curves_t curves = hyst_f32_curves(model, line.cell, rising, line.input);
     const hyst_f32_segment_t* top = &state->memory[state->front];
@@ -66,8 +67,8 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         const float step = hyst_f32_larger(rest / slope, 0.0f);
         float input = line.input + step;
         if (input < curves.end && curves.envelope_slope * step <= play) {
-            result.input = sign * input;
-            return result;
+            const hyst_f32_inverse_t near = {sign * input, clamped};
+            return near;
         }
         const float room = play / curves.envelope_slope;
         const float kink = line.input + room;
@@ -75,8 +76,8 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
             // A flat envelope gives no number where nothing limits it.
             input = kink < input ? kink : input;
             input = input > line.input ? input : line.input;
-            result.input = sign * (input < curves.end ? input : curves.end);
-            return result;
+            const hyst_f32_inverse_t far = {sign * (input < curves.end ? input : curves.end), clamped};
+            return far;
         }
         if (left == MOST_LINES && is_far(model, line.cell, &curves, rest)) {
             left = 0;
@@ -92,7 +93,11 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         }
         if (is_kink || left < 0 || line.cell == (rising ? hyst_f32_last_cell(model) : 0)) {
             left = -1;
-            hyst_f32_locate(model, state, rising, &wanted, &line, &result.clamped);
+            hyst_f32_search_t search = {line, wanted, false};
+            hyst_f32_locate(model, state, rising, &search);
+            line = search.line;
+            wanted = search.wanted;
+            clamped = search.clamped;
         } else {
             line.output += slope * (curves.end - line.input);
             line.input = curves.end;

@@ -42,9 +42,15 @@ static inline hyst_f32_curves_t hyst_f32_curves(const hyst_f32_model_t* model, c
     return curves;
 }
 
-/// Moves the line's beginning to the line that crosses `wanted`, which is further away. When it is out of
-/// reach, the end of the reach takes its place, and *clamped is set.
-void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising, float* wanted,
-                     hyst_f32_line_t* line, bool* clamped);
+/// What is looked for, and where it was found.
+typedef struct {
+    hyst_f32_line_t line;
+    float wanted; ///< in the direction of the move
+    bool clamped; ///< `wanted` was out of reach: it is the end of the reach now
+} hyst_f32_search_t;
+
+/// Moves the line's beginning to the line that crosses `wanted`, which is further away.
+void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising,
+                     hyst_f32_search_t* found);
 
 #endif

@@ -241,7 +241,7 @@ static float reach_of(const search_t* search)
 }
 
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
-                     float* wanted, hyst_f32_line_t* line, bool* clamped)
+                     hyst_f32_search_t* found)
 {
     search_t search;
     search.model = model;
@@ -249,13 +249,13 @@ void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* stat
     search.rising = rising;
     search.sign = hyst_f32_sign(rising);
     search.plays = search.sign * state->plays;
-    search.wanted = reach_of(&search);
-    if (*wanted <= search.wanted) {
-        search.wanted = *wanted;
-    } else {
-        *wanted = search.wanted;
-        *clamped = true;
-        if (!(line->output < search.wanted)) {
+    search.wanted = found->wanted;
+    const float reach = reach_of(&search);
+    if (reach < found->wanted) {
+        search.wanted = reach;
+        found->wanted = reach;
+        found->clamped = true;
+        if (!(found->line.output < reach)) {
             return;
         }
     }
@@ -263,5 +263,5 @@ void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* stat
     if (!hyst_f32_is_along(&state->memory[state->front], rising)) {
         search.turned = hyst_f32_end_of(model, state->memory, state->front, rising);
     }
-    search_line(&search, rising ? hyst_f32_last_cell(model) + 1 : 0, line);
+    search_line(&search, rising ? hyst_f32_last_cell(model) + 1 : 0, &found->line);
 }
