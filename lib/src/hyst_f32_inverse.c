@@ -32,7 +32,7 @@ static inline bool is_far(const hyst_f32_model_t* model, const uint32_t cell, co
         return false;
     }
     const float steepest = curves->offset_slope + model->play[model->num_plays - 1].slope * curves->envelope_slope;
-    return rest > 3.0f * (model->knot[cell + 1].input - model->knot[cell].input) * steepest;
+    return rest > (model->knot[cell + 1].input - model->knot[cell].input) * steepest;
 }
 
 /// Lines that are followed before the search.

@@ -234,7 +234,11 @@ static float reach_of(const search_t* search)
     cell_t cell;
     set_cell(search, rising ? hyst_f32_last_cell(model) : 0, rising ? model->input_max : model->input_min, &cell);
     float plays = search->plays;
-    if (hyst_f32_meet(model, search->state, rising, cell.curves.ahead, &front)) {
+    const hyst_f32_segment_t* outermost = search->state->memory;
+    const bool along = hyst_f32_is_along(outermost, rising);
+    if (hyst_f32_is_taken(model->play, outermost, along, hyst_f32_beyond(outermost, along, cell.curves.ahead))) {
+        plays = hyst_f32_larger(hyst_f32_over_none(model, cell.curves.ahead), plays);
+    } else if (hyst_f32_meet(model, search->state, rising, cell.curves.ahead, &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
     return cell.offset + plays;
