@@ -14,7 +14,8 @@ typedef struct {
     uint32_t num_moving; ///< plays 0 ... num_moving - 1 move
 } hyst_f32_line_t;
 
-/// The curves in a cell, in the direction of the move: their slopes, the envelope at an input, the cell's end.
+/// The curves in a cell, in the direction of the move: their slopes, the envelope at an input, the cell's
+/// end.
 typedef struct {
     float envelope_slope, offset_slope;
     float ahead;
@@ -25,26 +26,26 @@ static inline hyst_f32_curves_t hyst_f32_curves(const hyst_f32_model_t* model, c
                                                 const bool rising, const float input)
 {
     hyst_f32_curves_t curves;
-    const float sign = hyst_f32_sign(rising);
     if (model->num_knots == 0) {
         curves.envelope_slope = 1.0f;
         curves.offset_slope = model->nonhysteretic_slope;
         curves.ahead = input;
-        curves.end = sign * (rising ? model->input_max : model->input_min);
+        curves.end = (rising ? model->input_max : -model->input_min);
         return curves;
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
     curves.envelope_slope = rising ? knot->ascending_slope : knot->descending_slope;
     curves.offset_slope = knot->nonhysteretic_slope;
-    curves.ahead = sign * (rising ? knot->ascending : knot->descending) +
-                   curves.envelope_slope * (input - sign * knot->input);
-    curves.end = sign * (rising ? knot[1].input : knot->input);
+    curves.ahead = (rising ? knot->ascending : -knot->descending) +
+                   curves.envelope_slope * (input - hyst_f32_toward(knot->input, rising));
+    curves.end = (rising ? knot[1].input : -knot->input);
     return curves;
 }
 
 /// What is looked for, and where it was found.
 typedef struct {
     hyst_f32_line_t line;
+    hyst_f32_curves_t curves; ///< where the line begins
     float wanted; ///< in the direction of the move
     bool clamped; ///< `wanted` was out of reach: it is the end of the reach now
 } hyst_f32_search_t;

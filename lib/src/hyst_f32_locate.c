@@ -5,7 +5,6 @@ typedef struct {
     const hyst_f32_model_t* model;
     const hyst_f32_state_t* state;
     bool rising;
-    float sign;
     float wanted;
     float plays;  ///< the plays' part of the present output
     float turned; ///< sum[rising] of the front, if it was left in the other direction
@@ -42,12 +41,12 @@ static inline bool is_between(const knots_t* knots, const uint32_t middle)
 
 static inline float ahead_at(const search_t* search, const hyst_f32_knot_t* knot)
 {
-    return search->sign * (search->rising ? knot->ascending : knot->descending);
+    return (search->rising ? knot->ascending : -knot->descending);
 }
 
 static inline float offset_at(const search_t* search, const hyst_f32_knot_t* knot)
 {
-    return search->sign * (search->model->constant + knot->nonhysteretic);
+    return hyst_f32_toward(search->model->constant + knot->nonhysteretic, search->rising);
 }
 
 static inline uint32_t cell_after(const search_t* search, const knots_t* knots)
@@ -57,23 +56,23 @@ static inline uint32_t cell_after(const search_t* search, const knots_t* knots)
 
 static void set_cell(const search_t* search, const uint32_t index, const float v, cell_t* cell)
 {
-    cell->input = search->sign * v;
+    cell->input = hyst_f32_toward(v, search->rising);
     cell->curves = hyst_f32_curves(search->model, index, search->rising, cell->input);
-    cell->offset = search->sign * hyst_f32_offset(search->model, index, v);
+    cell->offset = hyst_f32_toward(hyst_f32_offset(search->model, index, v), search->rising);
     cell->ratio = hyst_f32_limit(cell->curves.offset_slope / cell->curves.envelope_slope, 0.0f, FLT_MAX);
 }
 
 static void begin_cell(const search_t* search, const knots_t* knots, const float start, cell_t* cell)
 {
-    const float v =
-        knots->near == knots->start ? search->sign * start : search->model->knot[knots->near].input;
+    const float v = knots->near == knots->start ? hyst_f32_toward(start, search->rising)
+                                                : search->model->knot[knots->near].input;
     set_cell(search, cell_after(search, knots), v, cell);
 }
 
 static inline float end_sum(const search_t* search, const hyst_f32_segment_t* segment, const bool along)
 {
     return !along && segment == &search->state->memory[search->state->front] ? search->turned
-                                                                               : segment->sum[search->rising];
+                                                                             : segment->sum[search->rising];
 }
 
 /// The kink of a play over a segment that was left in the other direction, or the end of one that was not.
@@ -197,8 +196,9 @@ static inline float sum_at(const search_t* search, const piece_t* piece, const f
 }
 
 /// Moves the line to the one that crosses the wanted output.
-static void search_line(const search_t* search, const uint32_t end, hyst_f32_line_t* line)
+static void search_line(const search_t* search, const uint32_t end, hyst_f32_search_t* found)
 {
+    hyst_f32_line_t* line = &found->line;
     const uint32_t start = search->rising ? line->cell : line->cell + 1;
     knots_t knots = {start, end, start};
     cell_t cell;
@@ -223,6 +223,7 @@ static void search_line(const search_t* search, const uint32_t end, hyst_f32_lin
         cell.curves.ahead = kink;
     }
     line->output = cell.offset + sum_at(search, &piece, cell.curves.ahead);
+    found->curves = cell.curves;
 }
 
 /// The output at the end of the range.
@@ -232,13 +233,10 @@ static float reach_of(const search_t* search)
     const bool rising = search->rising;
     hyst_f32_front_t front;
     cell_t cell;
-    set_cell(search, rising ? hyst_f32_last_cell(model) : 0, rising ? model->input_max : model->input_min, &cell);
+    set_cell(search, rising ? hyst_f32_last_cell(model) : 0, rising ? model->input_max : model->input_min,
+             &cell);
     float plays = search->plays;
-    const hyst_f32_segment_t* outermost = search->state->memory;
-    const bool along = hyst_f32_is_along(outermost, rising);
-    if (hyst_f32_is_taken(model->play, outermost, along, hyst_f32_beyond(outermost, along, cell.curves.ahead))) {
-        plays = hyst_f32_larger(hyst_f32_over_none(model, cell.curves.ahead), plays);
-    } else if (hyst_f32_meet(model, search->state, rising, cell.curves.ahead, &front)) {
+    if (hyst_f32_meet(model, search->state, rising, cell.curves.ahead, &front)) {
         plays = hyst_f32_larger(front.sum, plays);
     }
     return cell.offset + plays;
@@ -251,8 +249,7 @@ void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* stat
     search.model = model;
     search.state = state;
     search.rising = rising;
-    search.sign = hyst_f32_sign(rising);
-    search.plays = search.sign * state->plays;
+    search.plays = hyst_f32_toward(state->plays, rising);
     search.wanted = found->wanted;
     const float reach = reach_of(&search);
     if (reach < found->wanted) {
@@ -267,5 +264,5 @@ void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* stat
     if (!hyst_f32_is_along(&state->memory[state->front], rising)) {
         search.turned = hyst_f32_end_of(model, state->memory, state->front, rising);
     }
-    search_line(&search, rising ? hyst_f32_last_cell(model) + 1 : 0, &found->line);
+    search_line(&search, rising ? hyst_f32_last_cell(model) + 1 : 0, found);
 }

@@ -9,7 +9,7 @@ static void count(uint32_t* counter)
 
 /// The memory after a move; returns the plays' part of the output in its direction.
 static inline float turn(const hyst_f32_model_t* model, hyst_f32_state_t* state, const bool rising,
-                  const float ahead, const float plays)
+                         const float ahead, const float plays)
 {
     hyst_f32_front_t front;
     if (!hyst_f32_meet(model, state, rising, ahead, &front)) {

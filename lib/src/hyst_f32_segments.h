@@ -56,6 +56,12 @@ static inline float hyst_f32_sign(const bool rising)
     return rising ? 1.0f : -1.0f;
 }
 
+/// A quantity in the direction of the move, or back.
+static inline float hyst_f32_toward(const float x, const bool rising)
+{
+    return rising ? x : -x;
+}
+
 /// Whether the segment was left in this direction.
 static inline bool hyst_f32_is_along(const hyst_f32_segment_t* segment, const bool rising)
 {
