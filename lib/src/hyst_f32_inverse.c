@@ -104,13 +104,18 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
     hyst_f32_curves_t curves =
         hyst_f32_curves(model, state->cell, rising, hyst_f32_toward(state->input, rising));
     hyst_f32_line_t line = present_line(state, rising, &curves);
+    const uint32_t kept = line.kept;
+    const uint32_t num_moving = line.num_moving;
     for (int left = MOST_LINES;; --left) {
         const float push = push_to_kink(model, state, rising, &line, curves.ahead);
         const float rest = goal - line.output;
-        const float step = hyst_f32_larger(rest / slope_of(model, &line, &curves), 0.0f);
+        const float step = rest / slope_of(model, &line, &curves);
         const float input = line.input + step;
-        if (input < curves.end && curves.envelope_slope * step <= push) {
+        if (step > 0.0f && input < curves.end && curves.envelope_slope * step <= push) {
             return answer(input, rising, clamped);
+        }
+        if (!(rest > 0.0f)) {
+            return answer(line.input, rising, clamped);
         }
         const float kink = line.input + push / curves.envelope_slope;
         if (left < 0) {
@@ -124,12 +129,18 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         if (left > 0 && push >= 0.0f && pass(model, state, rising, kink, push, &line, &curves)) {
             continue;
         }
-        hyst_f32_search_t search = {line, curves, goal, false};
-        hyst_f32_locate(model, state, rising, &search);
-        line = search.line;
-        curves = search.curves;
-        goal = search.wanted;
-        clamped = search.clamped;
+        // From the present point, since what the lines have gathered in rounding counts where the output is
+        // flat.
+        hyst_f32_found_t found = {{hyst_f32_toward(state->input, rising),
+                                   hyst_f32_toward(state->output, rising), state->cell, kept, num_moving},
+                                  curves,
+                                  goal,
+                                  false};
+        hyst_f32_locate(model, state, rising, &found);
+        line = found.line;
+        curves = found.curves;
+        goal = found.wanted;
+        clamped = found.clamped;
         left = 0;
     }
 }

@@ -42,16 +42,16 @@ static inline hyst_f32_curves_t hyst_f32_curves(const hyst_f32_model_t* model, c
     return curves;
 }
 
-/// What is looked for, and where it was found.
+/// The line that crosses a wanted output.
 typedef struct {
-    hyst_f32_line_t line;
-    hyst_f32_curves_t curves; ///< where the line begins
-    float wanted; ///< in the direction of the move
-    bool clamped; ///< `wanted` was out of reach: it is the end of the reach now
-} hyst_f32_search_t;
+    hyst_f32_line_t line;     ///< before the search: the one of the present point
+    hyst_f32_curves_t curves; ///< where it begins
+    float wanted; ///< in the direction of the move; where that is out of reach, the end of the reach
+    bool clamped; ///< it was out of reach
+} hyst_f32_found_t;
 
-/// Moves the line's beginning to the line that crosses `wanted`, which is further away.
+/// Finds it wherever it is. Changes nothing but `wanted` and `clamped` where the present input is the answer.
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising,
-                     hyst_f32_search_t* found);
+                     hyst_f32_found_t* found);
 
 #endif

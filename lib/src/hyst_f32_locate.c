@@ -196,7 +196,7 @@ static inline float sum_at(const search_t* search, const piece_t* piece, const f
 }
 
 /// Moves the line to the one that crosses the wanted output.
-static void search_line(const search_t* search, const uint32_t end, hyst_f32_search_t* found)
+static void search_line(const search_t* search, const uint32_t end, hyst_f32_found_t* found)
 {
     hyst_f32_line_t* line = &found->line;
     const uint32_t start = search->rising ? line->cell : line->cell + 1;
@@ -243,23 +243,22 @@ static float reach_of(const search_t* search)
 }
 
 void hyst_f32_locate(const hyst_f32_model_t* model, const hyst_f32_state_t* state, const bool rising,
-                     hyst_f32_search_t* found)
+                     hyst_f32_found_t* found)
 {
     search_t search;
     search.model = model;
     search.state = state;
     search.rising = rising;
     search.plays = hyst_f32_toward(state->plays, rising);
-    search.wanted = found->wanted;
     const float reach = reach_of(&search);
     if (reach < found->wanted) {
-        search.wanted = reach;
         found->wanted = reach;
         found->clamped = true;
-        if (!(found->line.output < reach)) {
-            return;
-        }
     }
+    if (!(found->line.output < found->wanted)) {
+        return;
+    }
+    search.wanted = found->wanted;
     search.turned = 0.0f;
     if (!hyst_f32_is_along(&state->memory[state->front], rising)) {
         search.turned = hyst_f32_end_of(model, state->memory, state->front, rising);
