@@ -119,28 +119,26 @@ static inline bool is_kink_short(const search_t* search, const kink_t* kink, con
            search->wanted;
 }
 
-/// Returns the envelope at the last kink that falls short.
-static float search_kinks(const search_t* search, knots_t* knots, cell_t* cell, hyst_f32_line_t* line)
+static void search_kinks(const search_t* search, knots_t* knots, cell_t* cell, hyst_f32_line_t* line)
 {
     const hyst_f32_segment_t* memory = search->state->memory;
     const hyst_f32_segment_t* over = NULL;
     const uint32_t present = line->kept;
     uint32_t low = 0;
     uint32_t high = present + 1;
-    float ahead = -FLT_MAX;
     for (;;) {
         const uint32_t middle = (low + high) / 2;
         if (middle == low) {
             if (over != NULL) {
                 line->num_moving = low;
-                return ahead;
+                return;
             }
             line->kept = present - low;
             if (low != 0) {
                 line->num_moving = memory[line->kept].last + 1u;
             }
             if (line->kept == 0) {
-                return ahead;
+                return;
             }
             over = &memory[line->kept - 1];
             low = line->num_moving;
@@ -151,7 +149,6 @@ static float search_kinks(const search_t* search, knots_t* knots, cell_t* cell, 
         const kink_t kink = kink_of(search, segment, over != NULL ? middle - 1 : segment->last);
         if (is_kink_short(search, &kink, line->input, knots, cell)) {
             low = middle;
-            ahead = kink.shift + kink.width;
         } else {
             high = middle;
         }
@@ -189,10 +186,10 @@ static inline piece_t piece_of(const search_t* search, const hyst_f32_line_t* li
     return piece;
 }
 
-static inline float sum_at(const search_t* search, const piece_t* piece, const float ahead)
+static inline float sum_at(const piece_t* piece, const float ahead)
 {
     const float x = ahead - piece->shift - piece->opening;
-    return hyst_f32_larger(piece->end - (piece->top - (piece->loading + piece->slope * x)), search->plays);
+    return piece->end - (piece->top - (piece->loading + piece->slope * x));
 }
 
 /// Moves the line to the one that crosses the wanted output.
@@ -203,11 +200,12 @@ static void search_line(const search_t* search, const uint32_t end, hyst_f32_fou
     knots_t knots = {start, end, start};
     cell_t cell;
     cell.ratio = -1.0f;
-    const float kink = search_kinks(search, &knots, &cell, line);
+    search_kinks(search, &knots, &cell, line);
     const piece_t piece = piece_of(search, line);
     for (uint32_t middle = middle_of(&knots); is_between(&knots, middle); middle = middle_of(&knots)) {
         const hyst_f32_knot_t* knot = &search->model->knot[middle];
-        if (offset_at(search, knot) + sum_at(search, &piece, ahead_at(search, knot)) < search->wanted) {
+        if (offset_at(search, knot) + hyst_f32_larger(sum_at(&piece, ahead_at(search, knot)), search->plays) <
+            search->wanted) {
             knots.near = middle;
         } else {
             knots.far = middle;
@@ -216,13 +214,7 @@ static void search_line(const search_t* search, const uint32_t end, hyst_f32_fou
     begin_cell(search, &knots, line->input, &cell);
     line->cell = cell_after(search, &knots);
     line->input = cell.input;
-    if (kink > cell.curves.ahead) {
-        const float step = (kink - cell.curves.ahead) / cell.curves.envelope_slope;
-        line->input += step;
-        cell.offset += cell.curves.offset_slope * step;
-        cell.curves.ahead = kink;
-    }
-    line->output = cell.offset + sum_at(search, &piece, cell.curves.ahead);
+    line->output = cell.offset + sum_at(&piece, cell.curves.ahead);
     found->curves = cell.curves;
 }
 
