@@ -66,6 +66,9 @@ static inline bool pass(const hyst_f32_model_t* model, const hyst_f32_state_t* s
 {
     const float slope = slope_of(model, line, curves);
     if (kink < curves->end) {
+        if (!(kink >= line->input)) {
+            return false;
+        }
         line->output += slope * (kink - line->input);
         line->input = kink;
         curves->ahead += push;
@@ -117,7 +120,8 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         if (!(rest > 0.0f)) {
             return answer(line.input, rising, clamped);
         }
-        const float kink = line.input + push / curves.envelope_slope;
+        // + 0: a slope of -0 has no direction.
+        const float kink = line.input + push / (curves.envelope_slope + 0.0f);
         if (left < 0) {
             // Beyond the line by rounding alone. A flat envelope gives no number where no kink limits it.
             const float x = hyst_f32_larger(kink < input ? kink : input, line.input);
@@ -126,7 +130,7 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         if (left == MOST_LINES && is_far(model, line.cell, &curves, rest)) {
             left = 0;
         }
-        if (left > 0 && push >= 0.0f && pass(model, state, rising, kink, push, &line, &curves)) {
+        if (left > 0 && pass(model, state, rising, kink, push, &line, &curves)) {
             continue;
         }
         // From the present point, since what the lines have gathered in rounding counts where the output is
