@@ -85,6 +85,14 @@ static inline bool pass(const hyst_f32_model_t* model, const hyst_f32_state_t* s
     return true;
 }
 
+/// An input beyond the line, by rounding alone, brought back to it. A flat envelope gives no number for a
+/// kink that does not limit it.
+static inline float limited(const hyst_f32_line_t* line, const float end, const float kink, const float input)
+{
+    const float x = hyst_f32_larger(kink < input ? kink : input, line->input);
+    return x < end ? x : end;
+}
+
 static inline hyst_f32_inverse_t answer(const float input, const bool rising, const bool clamped)
 {
     const hyst_f32_inverse_t found = {hyst_f32_toward(input, rising), clamped};
@@ -123,9 +131,7 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         // + 0: a slope of -0 has no direction.
         const float kink = line.input + push / (curves.envelope_slope + 0.0f);
         if (left < 0) {
-            // Beyond the line by rounding alone. A flat envelope gives no number where no kink limits it.
-            const float x = hyst_f32_larger(kink < input ? kink : input, line.input);
-            return answer(x < curves.end ? x : curves.end, rising, clamped);
+            return answer(limited(&line, curves.end, kink, input), rising, clamped);
         }
         if (left == MOST_LINES && is_far(model, line.cell, &curves, rest)) {
             left = 0;
@@ -133,8 +139,7 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
         if (left > 0 && pass(model, state, rising, kink, push, &line, &curves)) {
             continue;
         }
-        // From the present point, since what the lines have gathered in rounding counts where the output is
-        // flat.
+        // From the present point: where the output is flat, what the lines gathered in rounding would count.
         hyst_f32_found_t found = {{hyst_f32_toward(state->input, rising),
                                    hyst_f32_toward(state->output, rising), state->cell, kept, num_moving},
                                   curves,
