@@ -107,8 +107,7 @@ hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f3
 {
     const bool rising = wanted > state->output;
     if (!rising && !(wanted < state->output)) {
-        const hyst_f32_inverse_t held = {state->input, hyst_f32_is_nan(wanted)};
-        return held;
+        return answer(state->input, true, hyst_f32_is_nan(wanted));
     }
     float goal = hyst_f32_toward(wanted, rising);
     bool clamped = false;
