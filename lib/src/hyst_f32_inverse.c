@@ -99,7 +99,7 @@ static inline hyst_f32_inverse_t answer(const float input, const bool rising, co
     return found;
 }
 
-/// Lines that are followed before the search.
+/// Lines that are followed beyond the first before the search.
 enum { MOST_LINES = 4 };
 
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,

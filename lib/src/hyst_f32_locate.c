@@ -41,7 +41,7 @@ static inline bool is_between(const knots_t* knots, const uint32_t middle)
 
 static inline float ahead_at(const search_t* search, const hyst_f32_knot_t* knot)
 {
-    return (search->rising ? knot->ascending : -knot->descending);
+    return search->rising ? knot->ascending : -knot->descending;
 }
 
 static inline float offset_at(const search_t* search, const hyst_f32_knot_t* knot)
@@ -89,7 +89,8 @@ static inline kink_t kink_of(const search_t* search, const hyst_f32_segment_t* s
     return kink;
 }
 
-/// Whether the output at the kink falls short. Narrows the knots until that is known.
+/// Whether the output at the kink falls short. A knot's offset and a kink's sum short of the wanted output:
+/// the earlier of the two falls short. Not short: the later does not. Narrows the knots until it is the kink.
 static inline bool is_kink_short(const search_t* search, const kink_t* kink, const float start,
                                  knots_t* knots, cell_t* cell)
 {

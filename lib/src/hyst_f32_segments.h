@@ -43,8 +43,10 @@
 ///
 /// INVERSE
 ///   In one cell of the table and one stretch between two openings the output is linear in the input. From
-///   the present point that line is solved first. Where the answer leaves it: cells by halving, then segments
-///   (sum_i is the end value), then openings, then one linear equation.
+///   the present point that line is solved first, then a few that follow it. A line further away is found by
+///   halving the table's knots and the kinks, where segments are taken or plays start to move, together:
+///   the output's other part at a knot plus the plays' sum at a kink (sum_i is the end value) tells of the
+///   earlier one that it falls short, or of the later one that it does not. Then one linear equation.
 #ifndef HYST_F32_SEGMENTS_H
 #define HYST_F32_SEGMENTS_H
 

@@ -108,7 +108,7 @@ float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, hys
 /// (8). Below input_min or above input_max, infinities included: clamped and counted in clamped_inputs. NaN:
 /// the previous input is held, counted in invalid_inputs. An unchanged input leaves the memory as it is. From
 /// one state, a larger input never gives a smaller output, bit for bit. Time O(1) while the input stays
-/// within or next to a cell of the table and one or two openings; O(log num_plays + log num_knots) for any
+/// within or next to a cell of the table and a few openings; O(log num_plays + log num_knots) for any
 /// jump.
 float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
 
@@ -116,7 +116,7 @@ float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, floa
 /// commit it, pass the input that was really applied to hyst_f32_step. Exact to rounding for the tabulated
 /// model; where many inputs give the same output, the one nearest to the present input. Solves one linear
 /// equation in one cell of the table: no iteration to a tolerance. NaN: the present input, clamped = true.
-/// Time O(1) next to the present input; O(log num_plays log num_knots) for any jump.
+/// Time O(1) next to the present input; O(log num_plays + log num_knots) for any jump.
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     float wanted);
 
