@@ -40,6 +40,7 @@
 #define CLASSICAL_FLOAT_ERROR 7.71450868e-05f /* output units: bound on what rounding to float changes */
 #define CLASSICAL_FIT_ERROR 0.0125000002f /* output units: RMS misfit on the record it was identified from */
 
+/* A step runs on nested segments of plays: for no number of plays more instructions than a loop over all. */
 /* [CLASSICAL_NUM_PLAYS] plays by radius and their loading curve, in µm */
 static const hyst_f32_play_t classical_play[] = {
     {.opening = 0.0f, .loading = 0.0f, .slope = 0.0549999997f},
