@@ -73,6 +73,10 @@ static void put_knots(const writer_t* writer, const hyst_f32_model_t* model)
 
 static void put_arrays(const writer_t* writer, const hyst_f32_model_t* model)
 {
+    // Measured core by core: lib/DESIGN.md, section 5.
+    fputs("/* A step runs on nested segments of plays: for no number of plays more instructions than a loop "
+          "over all. */\n",
+          writer->stream);
     put_array_comment(writer, "plays by radius and their loading curve, in ",
                       writer->from->model->output_unit, "NUM_PLAYS");
     put_plays(writer, model);

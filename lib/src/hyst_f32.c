@@ -1,18 +1,5 @@
 #include "hyst_f32_segments.h"
 
-uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t low, uint32_t high, const float v)
-{
-    while (low < high) {
-        const uint32_t middle = high - (high - low) / 2;
-        if (v < model->knot[middle].input) {
-            high = middle - 1;
-        } else {
-            low = middle;
-        }
-    }
-    return low;
-}
-
 void hyst_f32_place(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
 {
     state->input = input;
@@ -34,69 +21,6 @@ void hyst_f32_saturate(const hyst_f32_model_t* model, hyst_f32_state_t* state, c
     hyst_f32_place(model, state, input);
 }
 
-/// A move of any kind; returns the plays' part of the output in its direction.
-static float turn(const hyst_f32_model_t* model, hyst_f32_state_t* state, const bool rising,
-                  const float ahead, const float plays)
-{
-    hyst_f32_front_t front;
-    if (!hyst_f32_meet(model, state, rising, ahead, &front)) {
-        return plays;
-    }
-    hyst_f32_segment_t* segment = &state->memory[front.index];
-    if (front.index > state->front) {
-        segment[-1].sum[rising] = front.end;
-    }
-    segment->level = ahead;
-    segment->sum[rising] = front.sum;
-    segment->last = (uint16_t)front.last;
-    segment->rising = rising ? 1 : 0;
-    state->front = front.index;
-    return front.sum;
-}
-
-static void count(uint32_t* counter)
-{
-    if (*counter < UINT32_MAX) {
-        ++*counter;
-    }
-}
-
-/// Moves the state to v, finite and in `cell`, whatever the move is.
-static float move(const hyst_f32_model_t* model, hyst_f32_state_t* state, const uint32_t cell, const float v)
-{
-    const bool rising = v > state->input;
-    if (!rising && !(v < state->input)) {
-        return state->output;
-    }
-    const float sign = hyst_f32_sign(rising);
-    const float ahead = sign * hyst_f32_envelope(model, cell, v, rising);
-    const float present = sign * state->plays;
-    // Rounding does not move the plays' part against the input.
-    state->plays = sign * hyst_f32_larger(turn(model, state, rising, ahead, present), present);
-    state->input = v;
-    state->cell = cell;
-    state->output = hyst_f32_offset(model, cell, v) + state->plays;
-    return state->output;
-}
-
-/// A step of any input: one that is no number, out of range, in another cell, or one that takes a segment.
-static float step_anywhere(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
-{
-    if (hyst_f32_is_nan(input)) {
-        count(&state->invalid_inputs);
-        return state->output;
-    }
-    float v = input;
-    if (input < model->input_min || input > model->input_max) {
-        count(&state->clamped_inputs);
-        v = hyst_f32_limit(input, model->input_min, model->input_max);
-    }
-    const bool rising = v > state->input;
-    const uint32_t cell = hyst_f32_find_cell(model, rising ? state->cell : 0,
-                                             rising ? hyst_f32_last_cell(model) : state->cell, v);
-    return move(model, state, cell, v);
-}
-
 /// Whether the input is in the cell, or in the next one in the move's direction, which *cell then is.
 static inline bool is_near(const hyst_f32_model_t* model, uint32_t* cell, const bool rising,
                            const float input)
@@ -115,6 +39,8 @@ static inline bool is_near(const hyst_f32_model_t* model, uint32_t* cell, const 
     --*cell;
     return *cell + 1 > 0 && input >= knot[-1].input;
 }
+
+enum { MOST_OPENINGS = 9 };
 
 /// The move that goes on: the front's plays move along, perhaps with the next few, and no segment is taken,
 /// or no play moves at all. Returns the plays' part in the direction of the move, `present` where none moves;
@@ -142,10 +68,15 @@ static inline bool extend(const hyst_f32_model_t* model, hyst_f32_state_t* state
         }
         if (!along && x > model->play[last + 1].opening) {
             // No segment is taken, so that the next opening is there.
-            ++last;
-            if (x > model->play[last + 1].opening) {
-                last = hyst_f32_last_moved(model->play, last + 1, kept->last - 1u, x);
-            }
+            uint32_t left = MOST_OPENINGS;
+            const hyst_f32_play_t* next = &model->play[last + 1];
+            do {
+                if (--left == 0) {
+                    return false;
+                }
+                ++next;
+            } while (x > next->opening);
+            last += MOST_OPENINGS - left;
             top->last = (uint16_t)last;
         }
         sum = hyst_f32_over(model->play, kept, along, kept->sum[rising], last, x);
@@ -157,13 +88,14 @@ static inline bool extend(const hyst_f32_model_t* model, hyst_f32_state_t* state
     return true;
 }
 
-/// The short way for what a sample mostly is; step_anywhere gives the same bits.
+/// The short way for what a sample mostly is; hyst_f32_move gives the same bits. It calls nothing that
+/// returns here, so that it saves no registers.
 float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, const float input)
 {
     uint32_t cell = state->cell;
     const bool rising = input > state->input;
     if (model->num_knots == 0 || !is_near(model, &cell, rising, input)) {
-        return step_anywhere(model, state, input);
+        return hyst_f32_step_anywhere(model, state, input);
     }
     const hyst_f32_knot_t* knot = &model->knot[cell];
     const float along = input - knot->input;
@@ -171,7 +103,7 @@ float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, cons
                                : -(knot->descending + knot->descending_slope * along);
     float plays = rising ? state->plays : -state->plays;
     if (!extend(model, state, rising, ahead, &plays)) {
-        return move(model, state, cell, input);
+        return hyst_f32_move(model, state, cell, input);
     }
     plays = rising ? plays : -plays;
     const float output = model->constant + (knot->nonhysteretic + knot->nonhysteretic_slope * along) + plays;

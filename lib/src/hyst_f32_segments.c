@@ -1,5 +1,18 @@
 #include "hyst_f32_segments.h"
 
+uint32_t hyst_f32_find_cell(const hyst_f32_model_t* model, uint32_t low, uint32_t high, const float v)
+{
+    while (low < high) {
+        const uint32_t middle = high - (high - low) / 2;
+        if (v < model->knot[middle].input) {
+            high = middle - 1;
+        } else {
+            low = middle;
+        }
+    }
+    return low;
+}
+
 uint32_t hyst_f32_last_moved(const hyst_f32_play_t* play, uint32_t low, uint32_t high, const float x)
 {
     // A smooth input finds it next to where it was.

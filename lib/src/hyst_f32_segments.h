@@ -43,8 +43,10 @@
 ///
 /// INVERSE
 ///   In one cell of the table and one stretch between two openings the output is linear in the input. From
-///   the present point that line is solved first. Where the answer leaves it: cells by halving, then segments
-///   (sum_i is the end value), then openings, then one linear equation.
+///   the present point that line is solved first, then a few that follow it. A line further away is found by
+///   halving the table's knots and the kinks, where segments are taken or plays start to move, together:
+///   the output's other part at a knot plus the plays' sum at a kink (sum_i is the end value) tells of the
+///   earlier one that it falls short, or of the later one that it does not. Then one linear equation.
 #ifndef HYST_F32_SEGMENTS_H
 #define HYST_F32_SEGMENTS_H
 
@@ -54,6 +56,12 @@
 static inline float hyst_f32_sign(const bool rising)
 {
     return rising ? 1.0f : -1.0f;
+}
+
+/// A quantity in the direction of the move, or back.
+static inline float hyst_f32_toward(const float x, const bool rising)
+{
+    return rising ? x : -x;
 }
 
 /// Whether the segment was left in this direction.
@@ -113,6 +121,12 @@ typedef struct {
 /// The front that a move to `ahead` makes; false when it moves no play. Looks only.
 bool hyst_f32_meet(const hyst_f32_model_t* model, const hyst_f32_state_t* state, bool rising, float ahead,
                    hyst_f32_front_t* front);
+
+/// Moves the state to v, finite and in `cell`, whatever the move is.
+float hyst_f32_move(const hyst_f32_model_t* model, hyst_f32_state_t* state, uint32_t cell, float v);
+
+/// A step of any input: one that is no number, out of range or far away.
+float hyst_f32_step_anywhere(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
 
 /// Sets both sums of segments 0 ... front from their levels and plays, as the moves would have.
 void hyst_f32_sum_up(const hyst_f32_model_t* model, hyst_f32_segment_t* memory, uint32_t front);

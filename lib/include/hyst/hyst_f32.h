@@ -56,16 +56,17 @@ typedef struct {
     uint16_t rising; ///< 1: left by a rising input, 0: by a falling one
 } hyst_f32_segment_t;
 
-/// The state, caller-owned, in RAM. Fields may be read; only the functions below write them.
+/// The state, caller-owned, in RAM. Fields may be read; only the functions below write them. Floats and
+/// integers take turns, lest a compiler store two floats at once, late, and hold up the next step by that.
 typedef struct {
     hyst_f32_segment_t*
         memory;     ///< the caller's array [num_plays]; segments 0, the outermost, to `front` are in use
     uint32_t front; ///< the segment of the plays that moved last
-    uint32_t cell;  ///< the table's cell that holds `input`
     float input;    ///< the last input applied, after clamping
-    float output;   ///< the output it gave
-    float plays;    ///< the plays' part of it
+    uint32_t cell;  ///< the table's cell that holds `input`
+    float plays;    ///< the plays' part of `output`
     uint32_t invalid_inputs; ///< inputs that were NaN (stops counting at UINT32_MAX)
+    float output;            ///< the output that `input` gave
     uint32_t clamped_inputs; ///< inputs outside [input_min, input_max], infinities included (likewise)
 } hyst_f32_state_t;
 
@@ -107,7 +108,7 @@ float hyst_f32_reset(const hyst_f32_model_t* model, hyst_f32_state_t* state, hys
 /// (8). Below input_min or above input_max, infinities included: clamped and counted in clamped_inputs. NaN:
 /// the previous input is held, counted in invalid_inputs. An unchanged input leaves the memory as it is. From
 /// one state, a larger input never gives a smaller output, bit for bit. Time O(1) while the input stays
-/// within or next to a cell of the table and one or two openings; O(log num_plays + log num_knots) for any
+/// within or next to a cell of the table and a few openings; O(log num_plays + log num_knots) for any
 /// jump.
 float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, float input);
 
@@ -115,7 +116,7 @@ float hyst_f32_step(const hyst_f32_model_t* model, hyst_f32_state_t* state, floa
 /// commit it, pass the input that was really applied to hyst_f32_step. Exact to rounding for the tabulated
 /// model; where many inputs give the same output, the one nearest to the present input. Solves one linear
 /// equation in one cell of the table: no iteration to a tolerance. NaN: the present input, clamped = true.
-/// Time O(1) next to the present input; O(log num_plays log num_knots) for any jump.
+/// Time O(1) next to the present input; O(log num_plays + log num_knots) for any jump.
 hyst_f32_inverse_t hyst_f32_inverse(const hyst_f32_model_t* model, const hyst_f32_state_t* state,
                                     float wanted);
 
