@@ -92,6 +92,10 @@ static void everett_rows(void* context, size_t begin, size_t end, double* deriva
 /// Directions that add less than this to the record's squared error, in squared misfits, say nothing.
 static const double least_energy = 1;
 
+/// Where the calibration says nothing, a Preisach body differs from the model by no more than this many times what it
+/// differs by on the calibration.
+static const double few = 3;
+
 static void scale(double* precision, size_t numbers, double factor)
 {
     for (size_t i = 0; i < numbers * numbers; i++) {
@@ -137,8 +141,9 @@ static void add_everett(body_t* body, const model_t* model, const record_t* cali
     for (size_t t = 0; t < n; t++) {
         difference[t] = calibration->output[t] - difference[t];
     }
-    const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n), value,
-                                    precision);
+    const double beyond_noise = body->misfit * body->misfit - body->noise * body->noise;
+    const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n),
+                                    few * sqrt(beyond_noise), value, precision);
     body->misfit = fmin(left, body->misfit);
     scale(precision, EVERETT_FREE, 1 / (left * left));
     rows_t rows = {.body = body, .model = model, .input = record->input};

@@ -157,7 +157,7 @@ static double held_out_error(const equations_t* fold, double strength)
 }
 
 double everett_fit(const model_t* model, const double* input, const double* difference, size_t num_samples,
-                   double correlation, double* value, double* precision)
+                   double correlation, double largest, double* value, double* precision)
 {
     equations_t* fold = xcalloc(FOLDS + 1, sizeof *fold);
     everett_past_t past = everett_start(model);
@@ -186,6 +186,10 @@ double everett_fit(const model_t* model, const double* input, const double* diff
     memcpy(precision, all->gram, sizeof all->gram);
     cblas_dscal(SIZE, 1 / correlation, precision, 1);
     regularise(precision, strength);
+    const double left = least / (double)num_samples;
+    for (size_t k = 0; k < EVERETT_FREE; k++) {
+        precision[k * EVERETT_FREE + k] += left / (largest * largest);
+    }
     free(fold);
-    return sqrt(least / (double)num_samples);
+    return sqrt(left);
 }

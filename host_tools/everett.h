@@ -30,8 +30,8 @@ void everett_step(everett_past_t* past, double input, double* row);
 /// Fits value[EVERETT_FREE] to difference[num_samples], output units, over an input from negative saturation: as
 /// smooth as predicts stretches best that the fit has not seen. precision[EVERETT_FREE][EVERETT_FREE]: upper
 /// triangle of the values' inverse covariance for errors of variance 1 of which `correlation` count as one
-/// independent. Returns the RMS that is left of unseen stretches.
+/// independent, where values beyond `largest` [output] are not expected. Returns the RMS that is left of unseen stretches.
 double everett_fit(const model_t* model, const double* input, const double* difference, size_t num_samples,
-                   double correlation, double* value, double* precision);
+                   double correlation, double largest, double* value, double* precision);
 
 #endif
