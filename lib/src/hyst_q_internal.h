@@ -209,6 +209,10 @@ uint32_t HYST_Q(find_cell)(const hyst_q_model_t* model, uint32_t guess, hyst_q_v
 hyst_q_front_t HYST_Q(find_front)(const hyst_q_model_t* model, const hyst_q_state_t* state, uint32_t level,
                                   bool rising);
 
+/// The push that ends there, known already.
+hyst_q_front_t HYST_Q(front_at)(const hyst_q_model_t* model, const hyst_q_state_t* state, uint32_t num_kept,
+                                uint32_t end);
+
 /// Puts a new segment in place of those that a push to `level` moves as a whole, and of the first plays of
 /// the next one that it moves. Play 0 moves.
 void HYST_Q(replace)(const hyst_q_model_t* model, hyst_q_state_t* state, uint32_t level, bool rising);

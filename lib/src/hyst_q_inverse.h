@@ -1,189 +1,78 @@
-#include "hyst_q_internal.h"
+#include "hyst_q_solve.h"
 
-/// An input on the way, by its distance from the present one, and the output there.
-typedef struct {
-    uint32_t distance;
-    hyst_q_value_t output;
-} point_t;
-
-/// A search away from the present input for the nearest one whose output reaches `wanted`. It lies behind
-/// `near`, whose output falls short, and not behind `far`, whose output does not.
+/// A search away from the present input for the nearest one whose output reaches `wanted`. Outputs do not
+/// decrease with the input, so the answer lies at a boundary: between an input whose D + sum / 2^HYST_Q_BITS
+/// is below `goal` and the next one, whose is not.
 typedef struct {
     const hyst_q_model_t* model;
     const hyst_q_state_t* state;
+    hyst_q_wide_t goal;
     hyst_q_value_t wanted;
     bool rising;
     bool clamped; ///< the output asked for is out of reach: `wanted` is the last one within
-    uint32_t cell;
-    point_t near;
-    point_t far;
 } search_t;
 
-static hyst_q_value_t input_at(const search_t* search, const uint32_t distance)
+/// The levels over which a push moves the plays before `end` and leaves `num_kept` segments at the stack's
+/// bottom: from `start` to `limit`, away from the present. sum p_j w_j is rest + weight * level.
+typedef struct {
+    hyst_q_sum_t rest;
+    uint32_t weight;
+    uint32_t num_kept;
+    uint32_t end;
+    uint32_t start;
+    uint32_t limit;
+} piece_t;
+
+/// Where a piece begins, and the plays' sum there.
+typedef struct {
+    uint32_t level;
+    hyst_q_sum_t sum;
+} kink_t;
+
+/// What is known of the answer: its cell lies between two knots, the near one of which falls short, and not
+/// the far one.
+typedef struct {
+    uint32_t near, far; ///< indices of knots
+    uint32_t near_level, far_level;
+} cells_t;
+
+/// The boundary in one cell.
+typedef struct {
+    uint32_t cell;
+    hyst_q_rise_t line;
+    hyst_q_stretch_t stretch;
+} found_t;
+
+static inline void aim(search_t* search, const hyst_q_value_t wanted)
 {
-    const int64_t from = search->state->input;
-    return (hyst_q_value_t)(search->rising ? from + (int64_t)distance : from - (int64_t)distance);
+    search->wanted = wanted;
+    search->goal = (hyst_q_wide_t)wanted + (search->rising ? 0 : 1) - (hyst_q_wide_t)search->model->constant;
 }
 
-static uint32_t distance_of(const search_t* search, const hyst_q_value_t v)
+static inline bool is_beyond(const search_t* search, const uint32_t level, const uint32_t other)
 {
-    const uint32_t up = (uint32_t)v - (uint32_t)search->state->input;
-    return search->rising ? up : 0U - up;
+    return search->rising ? level > other : level < other;
+}
+
+static inline bool is_short(const search_t* search, const uint32_t nonhysteretic, const hyst_q_sum_t sum)
+{
+    const hyst_q_wide_t output = (hyst_q_wide_t)nonhysteretic + (hyst_q_wide_t)hyst_q_round(sum);
+    return (output >= search->goal) != search->rising;
+}
+
+static inline uint32_t level_at_knot(const search_t* search, const uint32_t k)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[k];
+    return search->rising ? knot->ascending : knot->descending;
 }
 
 /// The output that v, in `cell`, would give.
 static hyst_q_value_t look(const hyst_q_model_t* model, const hyst_q_state_t* state, const uint32_t cell,
                            const hyst_q_value_t v, const bool rising)
 {
-    if (v == state->input) {
-        return state->output;
-    }
     const uint32_t level = hyst_q_envelope(model, cell, v, rising);
     const hyst_q_front_t front = HYST_Q(find_front)(model, state, level, rising);
     return hyst_q_output(model, cell, v, front.below + hyst_q_front_part(model, front.end, level, !rising));
-}
-
-static bool falls_short(const search_t* search, const hyst_q_value_t output)
-{
-    return search->rising ? output < search->wanted : output > search->wanted;
-}
-
-/// Takes the point as the stretch's near or far end; true: the near one.
-static bool narrow(search_t* search, const uint32_t distance, const hyst_q_value_t output)
-{
-    const point_t point = {distance, output};
-    const bool short_of = falls_short(search, output);
-    if (short_of) {
-        search->near = point;
-    } else {
-        search->far = point;
-    }
-    return short_of;
-}
-
-/// Whether the answer lies in the present cell, which is then the stretch.
-static bool is_in_present_cell(search_t* search)
-{
-    const uint32_t cell = search->state->cell;
-    const hyst_q_value_t v = search->model->knot[search->rising ? cell + 1 : cell].input;
-    search->cell = cell;
-    return !narrow(search, distance_of(search, v),
-                   look(search->model, search->state, cell, v, search->rising));
-}
-
-/// Takes the rest of the range as the stretch; what is beyond its last output is clamped to that.
-static void take_range(search_t* search)
-{
-    const hyst_q_model_t* model = search->model;
-    const hyst_q_value_t end = search->rising ? model->input_max : model->input_min;
-    search->far.distance = distance_of(search, end);
-    search->far.output =
-        look(model, search->state, search->rising ? model->num_knots - 2 : 0, end, search->rising);
-    if (falls_short(search, search->far.output)) {
-        search->clamped = true;
-        search->wanted = search->far.output;
-        search->near.distance = 0;
-        search->near.output = search->state->output;
-    }
-}
-
-/// Narrows the stretch to one cell of the table.
-static void search_cells(search_t* search)
-{
-    const hyst_q_model_t* model = search->model;
-    const uint32_t first = search->state->cell;
-    uint32_t low = search->rising ? first : 0;
-    uint32_t high = search->rising ? model->num_knots - 2 : first;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        const hyst_q_value_t v = model->knot[middle + 1].input;
-        const bool short_of =
-            narrow(search, distance_of(search, v), look(model, search->state, middle, v, search->rising));
-        if (short_of == search->rising) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    search->cell = low;
-}
-
-/// How many plays an input at this distance in the cell moves.
-static hyst_q_front_t front_at(const search_t* search, const uint32_t distance)
-{
-    const uint32_t level =
-        hyst_q_envelope(search->model, search->cell, input_at(search, distance), search->rising);
-    return HYST_Q(find_front)(search->model, search->state, level, search->rising);
-}
-
-/// The state of play j, found among the segments by halving.
-static uint32_t play_state(const hyst_q_model_t* model, const hyst_q_state_t* state, const uint32_t j)
-{
-    uint32_t low = 0;
-    uint32_t high = state->num_segments - 1;
-    while (low < high) {
-        const uint32_t middle = high - (high - low) / 2;
-        if (state->segment[middle].end > j) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
-    }
-    return hyst_q_play(model, &state->segment[low], j);
-}
-
-/// The least distance at which play j moves; it does at the far end of the stretch.
-static uint32_t kink(const search_t* search, const uint32_t j)
-{
-    const hyst_q_knot_t* knot = &search->model->knot[search->cell];
-    const uint32_t value = search->rising ? knot->ascending : knot->descending;
-    const uint32_t slope = search->rising ? knot->ascending_slope : knot->descending_slope;
-    const uint32_t w = play_state(search->model, search->state, j);
-    const uint32_t radius = search->model->radius[j];
-    // The first level that the line must reach: one above w + r when rising; falling, one below w - r is the
-    // last level before it reaches w - r.
-    const uint32_t level = search->rising ? w + radius + 1 : w - radius;
-    uint32_t behind = 0; // of the knot, the least at which the line reaches the level
-    if (level > value) {
-        const hyst_q_sum_t needed = ((hyst_q_sum_t)(level - value) << HYST_Q_BITS) - HYST_Q_HALF;
-        const hyst_q_sum_t unit = (hyst_q_sum_t)slope << knot->shift;
-        behind = (uint32_t)((needed - 1) / unit + 1);
-    }
-    // How far the knot lies ahead of the present input; a knot behind it wraps and comes right with the sum.
-    const uint32_t ahead = (uint32_t)knot->input - (uint32_t)search->state->input;
-    return search->rising ? ahead + behind : 1U - (ahead + behind);
-}
-
-/// Narrows the stretch until no play starts to move between its ends. Returns which plays move in there.
-static hyst_q_front_t search_kinks(search_t* search)
-{
-    hyst_q_front_t front = front_at(search, search->near.distance);
-    uint32_t high = front_at(search, search->far.distance).end;
-    // The next kink first: a small correction does not reach it.
-    uint32_t middle = front.end;
-    while (front.end < high) {
-        const uint32_t distance = kink(search, middle);
-        const hyst_q_value_t v = input_at(search, distance);
-        const hyst_q_value_t output = look(search->model, search->state, search->cell, v, search->rising);
-        if (narrow(search, distance, output)) {
-            front = front_at(search, distance);
-        } else {
-            high = middle;
-        }
-        middle = front.end + (high - front.end) / 2;
-    }
-    return front;
-}
-
-/// The output at this distance, within a stretch whose plays before front->end move.
-static hyst_q_value_t output_within(const search_t* search, const hyst_q_front_t* front,
-                                    const uint32_t distance)
-{
-    const hyst_q_model_t* model = search->model;
-    const hyst_q_value_t v = input_at(search, distance);
-    const uint32_t level = hyst_q_envelope(model, search->cell, v, search->rising);
-    return hyst_q_output(model, search->cell, v,
-                         front->below + hyst_q_front_part(model, front->end, level, !search->rising));
 }
 
 static uint32_t apart(const hyst_q_value_t a, const hyst_q_value_t b)
@@ -191,102 +80,488 @@ static uint32_t apart(const hyst_q_value_t a, const hyst_q_value_t b)
     return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;
 }
 
-/// Where the straight line between the stretch's ends reaches the wanted output: between the ends.
-static uint32_t straight(const search_t* search)
+/// The level beyond which play `end` moves, too.
+static inline uint32_t limit_of(const search_t* search, const uint32_t num_kept, const uint32_t end)
 {
-    const uint32_t width = search->far.distance - search->near.distance;
-    const hyst_q_sum_t rise = apart(search->far.output, search->near.output);
-    const hyst_q_sum_t part = apart(search->wanted, search->near.output);
-    const uint32_t ahead = (uint32_t)(part * width / rise);
-    return search->near.distance + (ahead == 0 ? 1U : ahead == width ? width - 1 : ahead);
+    if (num_kept == 0) {
+        return search->rising ? UINT32_MAX : 0;
+    }
+    const hyst_q_segment_t* segment = &search->state->segment[num_kept - 1];
+    const uint32_t across = 2U * search->model->radius[end];
+    if (search->rising) {
+        return segment->falling ? segment->level + across : segment->level;
+    }
+    // Below 0 for a play that cannot be moved.
+    return segment->falling ? segment->level : segment->level > across ? segment->level - across : 0;
 }
 
-/// Finds the answer in a stretch without kinks. Rounding takes the outputs off a straight line by a few
-/// units: from where that line says, steps that double enclose the answer, and halvings find it.
-static void search_stretch(search_t* search, const hyst_q_front_t* front)
+/// The first piece: with it also the levels before its start, which move nothing.
+static inline piece_t present_piece(const search_t* search)
 {
-    if (search->far.distance - search->near.distance < 2) {
-        return;
+    const hyst_q_state_t* state = search->state;
+    const hyst_q_segment_t* top = &state->segment[state->num_segments - 1];
+    piece_t piece;
+    if ((top->falling == 0) == search->rising) {
+        piece.rest = top->rest;
+        piece.end = top->end;
+        piece.num_kept = state->num_segments - 1;
+        piece.start = top->level;
+    } else {
+        piece.rest = state->sum;
+        piece.end = 0;
+        piece.num_kept = state->num_segments;
+        piece.start = search->rising ? 0 : UINT32_MAX;
     }
-    uint32_t distance = straight(search);
-    uint32_t step = 1;
-    bool outward = narrow(search, distance, output_within(search, front, distance));
-    bool enclosed = false;
-    while (search->far.distance - search->near.distance > 1) {
-        const uint32_t room = search->far.distance - search->near.distance;
-        if (enclosed || step >= room) {
-            distance = search->near.distance + room / 2;
-        } else {
-            distance = outward ? search->near.distance + step : search->far.distance - step;
-            step *= 2;
+    piece.weight = search->model->cumulative_weight[piece.end];
+    piece.limit = limit_of(search, piece.num_kept, piece.end);
+    return piece;
+}
+
+/// Takes the next plays into the piece: those of a segment pushed in the direction of the search all at once,
+/// others one by one.
+static inline void take_next(const search_t* search, piece_t* piece)
+{
+    const hyst_q_segment_t* next = &search->state->segment[piece->num_kept - 1];
+    const uint32_t end = (next->falling == 0) == search->rising ? next->end : piece->end + 1;
+    const uint32_t weight = search->model->cumulative_weight[end];
+    piece->rest -= hyst_q_product(weight - piece->weight, piece->limit);
+    piece->weight = weight;
+    piece->end = end;
+    piece->num_kept -= end == next->end ? 1U : 0U;
+    piece->start = piece->limit;
+    piece->limit = limit_of(search, piece->num_kept, end);
+}
+
+static inline hyst_q_sum_t sum_at(const search_t* search, const piece_t* piece, const uint32_t level)
+{
+    const uint32_t reached = is_beyond(search, piece->start, level) ? piece->start : level;
+    return piece->rest + hyst_q_product(piece->weight, reached);
+}
+
+/// The lower knot of the cell that begins at knot `near` in the direction of the search.
+static inline uint32_t cell_from(const search_t* search, const uint32_t near)
+{
+    return search->rising ? near : near - 1;
+}
+
+/// Finds the boundary in the cell, as if the piece's plays, and no others, moved over the whole of it.
+static void solve_piece(const search_t* search, const piece_t* piece, found_t* found)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
+    hyst_q_rise_t* line = &found->line;
+    const bool rising = search->rising;
+    const uint32_t first = rising ? knot->ascending : knot->descending;
+    const uint32_t last = rising ? knot[1].ascending : knot[1].descending;
+    const uint32_t low = rising ? piece->start : piece->limit;
+    const uint32_t high = rising ? piece->limit : piece->start;
+    uint32_t from = low > first ? low : first;
+    from = from < high ? from : high;
+    const uint32_t to = last < high ? last : high;
+    line->level_slope = rising ? knot->ascending_slope : knot->descending_slope;
+    line->shift = knot->shift;
+    line->nonhysteretic_slope = knot->nonhysteretic_slope;
+    line->nonhysteretic_limit = (uint32_t)(knot[1].nonhysteretic - knot->nonhysteretic);
+    line->level_start = from > first ? from - first : 0;
+    line->level_limit = to > from ? to - from : 0;
+    line->weight = piece->weight;
+    const hyst_q_sum_t start = piece->rest + hyst_q_product(piece->weight, from) + HYST_Q_HALF;
+    line->fraction = (uint32_t)(start & HYST_Q_WORD_MAX);
+    line->need =
+        (uint32_t)(search->goal - (hyst_q_wide_t)knot->nonhysteretic - (hyst_q_wide_t)(start >> HYST_Q_BITS));
+    hyst_q_stretch_t* stretch = &found->stretch;
+    stretch->low = 0;
+    stretch->low_rise = 0;
+    stretch->high = (uint32_t)knot[1].input - (uint32_t)knot->input;
+    stretch->high_rise = 0;
+    hyst_q_solve(line, stretch);
+}
+
+/// The envelope's level at the distance x from the knot that the cell begins at.
+static uint32_t level_at(const search_t* search, const uint32_t cell, const uint32_t x)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    return hyst_q_level(knot, x << knot->shift, search->rising);
+}
+
+/// Of the two inputs at the boundary the one that falls short, and the one that does not.
+static inline uint32_t short_end(const search_t* search, const found_t* found)
+{
+    return search->rising ? found->stretch.low : found->stretch.high;
+}
+
+static inline uint32_t reaching_end(const search_t* search, const found_t* found)
+{
+    return search->rising ? found->stretch.high : found->stretch.low;
+}
+
+enum { MOST_PIECES = 6 };
+
+/// Follows the output piece by piece and cell by cell from the knot behind the present input. False, with
+/// the last knot and piece that fall short, where the boundary is further away.
+static bool walk(const search_t* search, uint32_t* near, piece_t* piece, found_t* found)
+{
+    const uint32_t end = search->rising ? search->model->num_knots - 1 : 0;
+    for (uint32_t i = 0; i < MOST_PIECES; ++i) {
+        const uint32_t far = search->rising ? *near + 1 : *near - 1;
+        const uint32_t far_level = level_at_knot(search, far);
+        const bool is_limited = is_beyond(search, far_level, piece->limit);
+        const hyst_q_sum_t sum = sum_at(search, piece, is_limited ? piece->limit : far_level);
+        if (!is_short(search, search->model->knot[far].nonhysteretic, sum)) {
+            found->cell = cell_from(search, *near);
+            solve_piece(search, piece, found);
+            if (!is_limited ||
+                !is_beyond(search, level_at(search, found->cell, short_end(search, found)), piece->limit)) {
+                return true;
+            }
         }
-        const bool short_of = narrow(search, distance, output_within(search, front, distance));
-        enclosed = enclosed || short_of != outward;
+        if (is_limited) {
+            take_next(search, piece);
+        } else if (far != end) {
+            *near = far;
+        } else {
+            return false;
+        }
+    }
+    return false;
+}
+
+/// The first of the segment's plays.
+static inline uint32_t first_play(const search_t* search, const uint32_t segment)
+{
+    const hyst_q_state_t* state = search->state;
+    return segment + 1 < state->num_segments ? state->segment[segment + 1].end : 0;
+}
+
+/// Where the segment is taken as a whole.
+static kink_t end_of_segment(const search_t* search, const uint32_t index)
+{
+    const hyst_q_segment_t* segment = &search->state->segment[index];
+    const hyst_q_sum_t moment = search->model->cumulative_moment[segment->end];
+    const uint32_t level = limit_of(search, index + 1, segment->end - 1U);
+    kink_t kink = {level, hyst_q_front_sum(search->model, segment, level)};
+    if (search->rising && segment->falling) {
+        kink.sum -= 2 * moment;
+    } else if (!search->rising && !segment->falling) {
+        kink.sum += 2 * moment;
+    }
+    return kink;
+}
+
+/// Where play j begins to move, of a segment pushed against the direction of the search.
+static kink_t start_of_play(const search_t* search, const hyst_q_segment_t* segment, const uint32_t j)
+{
+    const hyst_q_model_t* model = search->model;
+    const uint32_t radius = model->radius[j];
+    const hyst_q_sum_t before = hyst_q_front_sum(model, segment, segment->level);
+    const hyst_q_sum_t moved =
+        2 * (hyst_q_product(model->cumulative_weight[j], radius) - model->cumulative_moment[j]);
+    const kink_t up = {segment->level + 2U * radius, before + moved};
+    const kink_t down = {segment->level - 2U * radius, before - moved};
+    return search->rising ? up : down;
+}
+
+/// About what D is where the envelope reaches the level, within one cell.
+static uint32_t nonhysteretic_near(const search_t* search, const uint32_t cell, const uint32_t level)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    const uint32_t value = search->rising ? knot->ascending : knot->descending;
+    const uint32_t slope = search->rising ? knot->ascending_slope : knot->descending_slope;
+    const uint32_t offset =
+        hyst_q_quotient((hyst_q_sum_t)(level - value) << HYST_Q_BITS, slope, hyst_q_leading_zeros(slope));
+    return hyst_q_nonhysteretic(knot, offset < HYST_Q_WORD_MAX ? offset : HYST_Q_WORD_MAX);
+}
+
+static bool is_one(const cells_t* cells)
+{
+    return cells->near + 1 == cells->far || cells->far + 1 == cells->near;
+}
+
+/// Whether the output at the kink falls short, found by narrowing the cells until they tell: where the middle
+/// knot lies on this side of the kink, D there and the plays' sum at the kink are together no more than the
+/// output at the kink and no less than that at the knot; beyond it, the other way round. In one cell D at the
+/// kink is estimated.
+static bool is_kink_short(const search_t* search, cells_t* cells, const kink_t* kink)
+{
+    for (;;) {
+        if (!is_beyond(search, kink->level, cells->near_level)) {
+            return true;
+        }
+        if (!is_beyond(search, cells->far_level, kink->level)) {
+            return false;
+        }
+        if (is_one(cells)) {
+            const uint32_t cell = cell_from(search, cells->near);
+            return is_short(search, nonhysteretic_near(search, cell, kink->level), kink->sum);
+        }
+        const uint32_t middle = (cells->near + cells->far) / 2;
+        const uint32_t level = level_at_knot(search, middle);
+        const bool short_of = is_short(search, search->model->knot[middle].nonhysteretic, kink->sum);
+        if (is_beyond(search, level, kink->level)) {
+            if (short_of) {
+                return true;
+            }
+            cells->far = middle;
+            cells->far_level = level;
+        } else {
+            if (!short_of) {
+                return false;
+            }
+            cells->near = middle;
+            cells->near_level = level;
+        }
     }
 }
 
-/// Finds the nearest input whose output reaches `wanted`, as the far end of a stretch of one unit; or, where
-/// nothing within reach is nearer to it than the present output, the present input.
-static void find_reaching(search_t* search)
+/// The segment that play j is in.
+static uint32_t segment_of(const search_t* search, const uint32_t num_kept, const uint32_t j)
 {
-    search->near.distance = 0;
-    search->near.output = search->state->output;
-    if (!is_in_present_cell(search)) {
-        take_range(search);
-        if (search->wanted == search->state->output) {
-            search->far = search->near;
+    return num_kept > 0 && j >= first_play(search, num_kept - 1) ? num_kept - 1 : num_kept;
+}
+
+static piece_t piece_of(const search_t* search, const uint32_t num_kept, const uint32_t end)
+{
+    const hyst_q_model_t* model = search->model;
+    const hyst_q_front_t front = HYST_Q(front_at)(model, search->state, num_kept, end);
+    piece_t piece;
+    piece.rest = search->rising ? front.below - model->cumulative_moment[end]
+                                : front.below + model->cumulative_moment[end];
+    piece.weight = model->cumulative_weight[end];
+    piece.num_kept = num_kept;
+    piece.end = end;
+    piece.start = search->rising ? 0 : UINT32_MAX;
+    if (end > 0) {
+        piece.start = limit_of(search, segment_of(search, num_kept, end - 1) + 1, end - 1);
+    }
+    piece.limit = limit_of(search, num_kept, end);
+    return piece;
+}
+
+/// The piece before, for one that has plays.
+static piece_t piece_before(const search_t* search, const piece_t* piece)
+{
+    const uint32_t index = segment_of(search, piece->num_kept, piece->end - 1);
+    const hyst_q_segment_t* segment = &search->state->segment[index];
+    const bool is_along = (segment->falling == 0) == search->rising;
+    return piece_of(search, index + 1, is_along ? first_play(search, index) : piece->end - 1);
+}
+
+/// The piece that holds the boundary or, where an estimate decided, one beside it. Narrows the cells too.
+static piece_t search_pieces(const search_t* search, cells_t* cells, const piece_t* near,
+                             const hyst_q_front_t* far)
+{
+    uint32_t low = far->num_kept;
+    uint32_t high = near->num_kept;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        const kink_t kink = end_of_segment(search, middle);
+        if (is_kink_short(search, cells, &kink)) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    if (low == 0) {
+        return piece_of(search, 0, search->model->num_plays);
+    }
+    const hyst_q_segment_t* segment = &search->state->segment[low - 1];
+    uint32_t end = low == near->num_kept ? near->end : first_play(search, low - 1);
+    uint32_t last = low == far->num_kept                        ? far->end
+                    : (segment->falling == 0) == search->rising ? end
+                                                                : segment->end - 1U;
+    while (end < last) {
+        const uint32_t middle = end + (last - end) / 2;
+        const kink_t kink = start_of_play(search, segment, middle);
+        if (is_kink_short(search, cells, &kink)) {
+            end = middle + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return piece_of(search, low, end);
+}
+
+/// Narrows the cells to one, of a piece that holds the boundary.
+static void search_cells(const search_t* search, cells_t* cells, const piece_t* piece)
+{
+    while (!is_one(cells)) {
+        const uint32_t middle = (cells->near + cells->far) / 2;
+        const uint32_t level = level_at_knot(search, middle);
+        const hyst_q_sum_t sum = sum_at(search, piece, level);
+        if (is_short(search, search->model->knot[middle].nonhysteretic, sum)) {
+            cells->near = middle;
+        } else {
+            cells->far = middle;
+        }
+    }
+}
+
+/// Finds the boundary in the cell, from a piece that holds it or is not far from it.
+static void settle(const search_t* search, piece_t* piece, found_t* found)
+{
+    for (;;) {
+        solve_piece(search, piece, found);
+        if (is_beyond(search, level_at(search, found->cell, short_end(search, found)), piece->limit)) {
+            take_next(search, piece);
+        } else if (piece->end > 0 && is_beyond(search, piece->start,
+                                               level_at(search, found->cell, reaching_end(search, found)))) {
+            *piece = piece_before(search, piece);
+        } else {
             return;
         }
-        search_cells(search);
     }
-    const hyst_q_front_t front = search_kinks(search);
-    search_stretch(search, &front);
 }
 
-/// Whether the next input nearer than `near` gives another output.
-static bool is_first_of_its_output(const search_t* search)
+/// The knot behind the present input.
+static inline uint32_t knot_behind(const search_t* search)
 {
-    const hyst_q_value_t v = input_at(search, search->near.distance - 1);
-    const uint32_t cell = HYST_Q(find_cell)(search->model, search->cell, v);
-    return look(search->model, search->state, cell, v, search->rising) != search->near.output;
+    return search->rising ? search->state->cell : search->state->cell + 1;
+}
+
+/// Finds the boundary beyond the knot `near`, which falls short in `piece`. False where nothing within reach
+/// is nearer to the wanted output than the present one.
+static bool search_far(search_t* search, uint32_t near, piece_t* piece, found_t* found)
+{
+    const hyst_q_model_t* model = search->model;
+    const uint32_t end = search->rising ? model->num_knots - 1 : 0;
+    const uint32_t level = level_at_knot(search, end);
+    const hyst_q_front_t front = HYST_Q(find_front)(model, search->state, level, search->rising);
+    const hyst_q_sum_t sum = front.below + hyst_q_front_part(model, front.end, level, !search->rising);
+    const uint32_t nonhysteretic = model->knot[end].nonhysteretic;
+    if (is_short(search, nonhysteretic, sum)) {
+        search->clamped = true;
+        aim(search, hyst_q_total(model, nonhysteretic, sum));
+        if (search->wanted == search->state->output) {
+            return false;
+        }
+        near = knot_behind(search);
+        *piece = present_piece(search);
+    }
+    cells_t cells = {near, end, level_at_knot(search, near), level};
+    *piece = search_pieces(search, &cells, piece, &front);
+    search_cells(search, &cells, piece);
+    found->cell = cell_from(search, cells.near);
+    settle(search, piece, found);
+    return true;
+}
+
+/// Finds the boundary, from the present input on; false as search_far.
+static bool find(search_t* search, piece_t* piece, found_t* found)
+{
+    uint32_t near = knot_behind(search);
+    *piece = present_piece(search);
+    return walk(search, &near, piece, found) || search_far(search, near, piece, found);
+}
+
+static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, const uint32_t x)
+{
+    return (hyst_q_value_t)((int64_t)search->model->knot[cell].input + (int64_t)x);
+}
+
+/// The output at one end of the boundary, whose rise above the knot is known as far as the piece goes.
+static hyst_q_value_t output_at(const search_t* search, const piece_t* piece, const found_t* found,
+                                const uint32_t x, const uint32_t rise)
+{
+    const uint32_t level = level_at(search, found->cell, x);
+    if (is_beyond(search, level, piece->limit) || is_beyond(search, piece->start, level)) {
+        const hyst_q_value_t v = input_at(search, found->cell, x);
+        return look(search->model, search->state, found->cell, v, search->rising);
+    }
+    const uint32_t wanted_rise = found->line.need - (search->rising ? 0U : 1U);
+    return (hyst_q_value_t)((int64_t)search->wanted + (int64_t)rise - (int64_t)wanted_rise);
+}
+
+/// Moves the boundary to the first input of the output at its short end, where that is in the same cell and
+/// piece.
+static bool move_to_first(const search_t* search, const piece_t* piece, found_t* found)
+{
+    hyst_q_rise_t* line = &found->line;
+    hyst_q_stretch_t* stretch = &found->stretch;
+    const uint32_t width = (uint32_t)search->model->knot[found->cell + 1].input -
+                           (uint32_t)search->model->knot[found->cell].input;
+    if (search->rising) {
+        line->need = stretch->low_rise;
+        stretch->high = stretch->low;
+        stretch->low = 0;
+    } else {
+        line->need = stretch->high_rise + 1;
+        stretch->low = stretch->high;
+        stretch->high = width;
+    }
+    if (line->need == 0 || hyst_q_rise(line, stretch->high) < line->need) {
+        return false;
+    }
+    hyst_q_narrow(line, stretch, search->rising ? stretch->high - 1 : stretch->low + 1, 1);
+    const uint32_t level = level_at(search, found->cell, reaching_end(search, found));
+    return !is_beyond(search, piece->start, level) && !is_beyond(search, level, piece->limit);
+}
+
+/// Of the two outputs at the boundary the nearer one, and its first input.
+static hyst_q_value_t nearest(search_t* search, piece_t* piece, found_t* found)
+{
+    const hyst_q_stretch_t stretch = found->stretch;
+    const uint32_t reaching = reaching_end(search, found);
+    const uint32_t falling_short = short_end(search, found);
+    const hyst_q_value_t reached =
+        output_at(search, piece, found, reaching, search->rising ? stretch.high_rise : stretch.low_rise);
+    const hyst_q_value_t before =
+        output_at(search, piece, found, falling_short, search->rising ? stretch.low_rise : stretch.high_rise);
+    if (apart(search->wanted, before) > apart(reached, search->wanted)) {
+        return input_at(search, found->cell, reaching);
+    }
+    if (before == search->state->output) {
+        return search->state->input;
+    }
+    aim(search, before);
+    if (!move_to_first(search, piece, found)) {
+        (void)find(search, piece, found);
+    }
+    return input_at(search, found->cell, reaching_end(search, found));
 }
 
 HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_state_t* state)
 {
     HYST_Q(reach_t) reach;
-    reach.reachable_min = look(model, state, 0, model->input_min, false);
-    reach.reachable_max = look(model, state, model->num_knots - 2, model->input_max, true);
+    const hyst_q_value_t low = model->input_min;
+    const hyst_q_value_t high = model->input_max;
+    reach.reachable_min = low == state->input ? state->output : look(model, state, 0, low, false);
+    reach.reachable_max =
+        high == state->input ? state->output : look(model, state, model->num_knots - 2, high, true);
     return reach;
+}
+
+/// Whether the output at the boundary's reaching end is the wanted one, without a look at the memory.
+static inline bool is_exact(const search_t* search, const piece_t* piece, const found_t* found)
+{
+    const uint32_t far_level = level_at_knot(search, search->rising ? found->cell + 1 : found->cell);
+    const bool hits = search->rising ? found->stretch.high_rise == found->line.need
+                                     : found->stretch.low_rise + 1 == found->line.need;
+    return hits &&
+           (!is_beyond(search, far_level, piece->limit) ||
+            !is_beyond(search, level_at(search, found->cell, reaching_end(search, found)), piece->limit));
 }
 
 HYST_Q(inverse_t)
 HYST_Q(inverse)(const hyst_q_model_t* model, const hyst_q_state_t* state, const hyst_q_value_t wanted)
 {
-    search_t search;
     HYST_Q(inverse_t) result;
     result.input = state->input;
     result.clamped = false;
     if (wanted == state->output) {
         return result;
     }
+    search_t search;
     search.model = model;
     search.state = state;
-    search.wanted = wanted;
     search.rising = wanted > state->output;
     search.clamped = false;
-    find_reaching(&search);
-    result.clamped = search.clamped;
-    if (apart(search.wanted, search.near.output) <= apart(search.far.output, search.wanted)) {
-        if (search.near.output == state->output) {
-            return result;
-        }
-        if (is_first_of_its_output(&search)) {
-            search.far = search.near;
-        } else {
-            search.wanted = search.near.output;
-            find_reaching(&search);
-        }
+    aim(&search, wanted);
+    piece_t piece;
+    found_t found;
+    if (find(&search, &piece, &found)) {
+        result.input = is_exact(&search, &piece, &found)
+                           ? input_at(&search, found.cell, reaching_end(&search, &found))
+                           : nearest(&search, &piece, &found);
     }
-    result.input = input_at(&search, search.far.distance);
+    result.clamped = search.clamped;
     return result;
 }
