@@ -6,7 +6,6 @@
 typedef struct {
     const hyst_q_model_t* model;
     const hyst_q_state_t* state;
-    hyst_q_wide_t goal;
     hyst_q_value_t wanted;
     bool rising;
     bool clamped; ///< the output asked for is out of reach: `wanted` is the last one within
@@ -39,25 +38,22 @@ typedef struct {
 /// The boundary in one cell.
 typedef struct {
     uint32_t cell;
-    hyst_q_rise_t line;
-    hyst_q_stretch_t stretch;
+    hyst_q_boundary_t at;
 } found_t;
-
-static inline void aim(search_t* search, const hyst_q_value_t wanted)
-{
-    search->wanted = wanted;
-    search->goal = (hyst_q_wide_t)wanted + (search->rising ? 0 : 1) - (hyst_q_wide_t)search->model->constant;
-}
 
 static inline bool is_beyond(const search_t* search, const uint32_t level, const uint32_t other)
 {
     return search->rising ? level > other : level < other;
 }
 
+static inline bool falls_short(const search_t* search, const hyst_q_value_t output)
+{
+    return search->rising ? output < search->wanted : output > search->wanted;
+}
+
 static inline bool is_short(const search_t* search, const uint32_t nonhysteretic, const hyst_q_sum_t sum)
 {
-    const hyst_q_wide_t output = (hyst_q_wide_t)nonhysteretic + (hyst_q_wide_t)hyst_q_round(sum);
-    return (output >= search->goal) != search->rising;
+    return falls_short(search, hyst_q_total(search->model, nonhysteretic, sum));
 }
 
 static inline uint32_t level_at_knot(const search_t* search, const uint32_t k)
@@ -144,40 +140,31 @@ static inline uint32_t cell_from(const search_t* search, const uint32_t near)
     return search->rising ? near : near - 1;
 }
 
-/// Finds the boundary in the cell, as if the piece's plays, and no others, moved over the whole of it.
-static void solve_piece(const search_t* search, const piece_t* piece, found_t* found)
+/// The least output that does not fall short of a rising search, or does of a falling one.
+static inline uint32_t goal_of(const search_t* search)
 {
-    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
-    hyst_q_rise_t* line = &found->line;
-    const bool rising = search->rising;
-    const uint32_t first = rising ? knot->ascending : knot->descending;
-    const uint32_t last = rising ? knot[1].ascending : knot[1].descending;
-    const uint32_t low = rising ? piece->start : piece->limit;
-    const uint32_t high = rising ? piece->limit : piece->start;
-    uint32_t from = low > first ? low : first;
-    from = from < high ? from : high;
-    const uint32_t to = last < high ? last : high;
-    line->level_slope = rising ? knot->ascending_slope : knot->descending_slope;
-    line->shift = knot->shift;
-    line->nonhysteretic_slope = knot->nonhysteretic_slope;
-    line->nonhysteretic_limit = (uint32_t)(knot[1].nonhysteretic - knot->nonhysteretic);
-    line->level_start = from > first ? from - first : 0;
-    line->level_limit = to > from ? to - from : 0;
-    line->weight = piece->weight;
-    const hyst_q_sum_t start = piece->rest + hyst_q_product(piece->weight, from) + HYST_Q_HALF;
-    line->fraction = (uint32_t)(start & HYST_Q_WORD_MAX);
-    line->need =
-        (uint32_t)(search->goal - (hyst_q_wide_t)knot->nonhysteretic - (hyst_q_wide_t)(start >> HYST_Q_BITS));
-    hyst_q_stretch_t* stretch = &found->stretch;
-    stretch->low = 0;
-    stretch->low_rise = 0;
-    stretch->high = (uint32_t)knot[1].input - (uint32_t)knot->input;
-    stretch->high_rise = 0;
-    hyst_q_solve(line, stretch);
+    return (uint32_t)search->wanted + (search->rising ? 0U : 1U);
 }
 
-/// The envelope's level at the distance x from the knot that the cell begins at.
-static uint32_t level_at(const search_t* search, const uint32_t cell, const uint32_t x)
+/// The cell as a line, as if the piece's plays, and no others, moved over the whole of it.
+static inline hyst_q_line_t line_of(const search_t* search, const uint32_t cell, const piece_t* piece)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    const uint32_t level = search->rising ? knot->ascending : knot->descending;
+    const uint32_t above = (uint32_t)search->model->constant + knot->nonhysteretic - goal_of(search);
+    hyst_q_line_t line;
+    line.at_knot = piece->rest + hyst_q_product(piece->weight, level) + HYST_Q_HALF +
+                   ((hyst_q_sum_t)above << HYST_Q_BITS);
+    line.weight = piece->weight;
+    line.level_slope = search->rising ? knot->ascending_slope : knot->descending_slope;
+    line.nonhysteretic_slope = knot->nonhysteretic_slope;
+    line.shift = knot->shift;
+    line.width = (uint32_t)knot[1].input - (uint32_t)knot->input;
+    return line;
+}
+
+/// The envelope's level at the distance x from the cell's lower knot.
+static inline uint32_t level_at(const search_t* search, const uint32_t cell, const uint32_t x)
 {
     const hyst_q_knot_t* knot = &search->model->knot[cell];
     return hyst_q_level(knot, x << knot->shift, search->rising);
@@ -186,43 +173,12 @@ static uint32_t level_at(const search_t* search, const uint32_t cell, const uint
 /// Of the two inputs at the boundary the one that falls short, and the one that does not.
 static inline uint32_t short_end(const search_t* search, const found_t* found)
 {
-    return search->rising ? found->stretch.low : found->stretch.high;
+    return search->rising ? found->at.low : found->at.high;
 }
 
 static inline uint32_t reaching_end(const search_t* search, const found_t* found)
 {
-    return search->rising ? found->stretch.high : found->stretch.low;
-}
-
-enum { MOST_PIECES = 6 };
-
-/// Follows the output piece by piece and cell by cell from the knot behind the present input. False, with
-/// the last knot and piece that fall short, where the boundary is further away.
-static bool walk(const search_t* search, uint32_t* near, piece_t* piece, found_t* found)
-{
-    const uint32_t end = search->rising ? search->model->num_knots - 1 : 0;
-    for (uint32_t i = 0; i < MOST_PIECES; ++i) {
-        const uint32_t far = search->rising ? *near + 1 : *near - 1;
-        const uint32_t far_level = level_at_knot(search, far);
-        const bool is_limited = is_beyond(search, far_level, piece->limit);
-        const hyst_q_sum_t sum = sum_at(search, piece, is_limited ? piece->limit : far_level);
-        if (!is_short(search, search->model->knot[far].nonhysteretic, sum)) {
-            found->cell = cell_from(search, *near);
-            solve_piece(search, piece, found);
-            if (!is_limited ||
-                !is_beyond(search, level_at(search, found->cell, short_end(search, found)), piece->limit)) {
-                return true;
-            }
-        }
-        if (is_limited) {
-            take_next(search, piece);
-        } else if (far != end) {
-            *near = far;
-        } else {
-            return false;
-        }
-    }
-    return false;
+    return search->rising ? found->at.high : found->at.low;
 }
 
 /// The first of the segment's plays.
@@ -230,6 +186,118 @@ static inline uint32_t first_play(const search_t* search, const uint32_t segment
 {
     const hyst_q_state_t* state = search->state;
     return segment + 1 < state->num_segments ? state->segment[segment + 1].end : 0;
+}
+
+/// The segment that play j is in.
+static uint32_t segment_of(const search_t* search, const uint32_t num_kept, const uint32_t j)
+{
+    return num_kept > 0 && j >= first_play(search, num_kept - 1) ? num_kept - 1 : num_kept;
+}
+
+static piece_t piece_of(const search_t* search, const uint32_t num_kept, const uint32_t end)
+{
+    const hyst_q_model_t* model = search->model;
+    const hyst_q_front_t front = HYST_Q(front_at)(model, search->state, num_kept, end);
+    piece_t piece;
+    piece.rest = search->rising ? front.below - model->cumulative_moment[end]
+                                : front.below + model->cumulative_moment[end];
+    piece.weight = model->cumulative_weight[end];
+    piece.num_kept = num_kept;
+    piece.end = end;
+    piece.start = search->rising ? 0 : UINT32_MAX;
+    if (end > 0) {
+        piece.start = limit_of(search, segment_of(search, num_kept, end - 1) + 1, end - 1);
+    }
+    piece.limit = limit_of(search, num_kept, end);
+    return piece;
+}
+
+/// The piece before, for one that has plays.
+static piece_t piece_before(const search_t* search, const piece_t* piece)
+{
+    const uint32_t index = segment_of(search, piece->num_kept, piece->end - 1);
+    const hyst_q_segment_t* segment = &search->state->segment[index];
+    const bool is_along = (segment->falling == 0) == search->rising;
+    return piece_of(search, index + 1, is_along ? first_play(search, index) : piece->end - 1);
+}
+
+/// Whether the output at the distance x is what the line says: neither curve is limited by its next value.
+static inline bool is_on_line(const hyst_q_knot_t* knot, const bool rising, const uint32_t x)
+{
+    const uint32_t offset = x << knot->shift;
+    const uint32_t level = rising ? knot->ascending + hyst_q_scaled(knot->ascending_slope, offset)
+                                  : knot->descending + hyst_q_scaled(knot->descending_slope, offset);
+    return level <= (rising ? knot[1].ascending : knot[1].descending) &&
+           knot->nonhysteretic + hyst_q_scaled(knot->nonhysteretic_slope, offset) <= knot[1].nonhysteretic;
+}
+
+/// How many pieces and cells are followed, and the part of all outputs (2^-NEAR_BITS) that is near enough.
+enum { MOST_PIECES = 6, NEAR_BITS = 4 };
+
+static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, const uint32_t x)
+{
+    return (hyst_q_value_t)((int64_t)search->model->knot[cell].input + (int64_t)x);
+}
+
+/// Follows the output piece by piece and cell by cell from the knot `near` on. Where it finds a boundary,
+/// both its ends lie in the piece and the cell in whose line it was found: this proves it, however it was
+/// come upon.
+static bool follow(const search_t* search, uint32_t near, piece_t* piece, found_t* found)
+{
+    const uint32_t end = search->rising ? search->model->num_knots - 1 : 0;
+    for (uint32_t i = 0; i < MOST_PIECES; ++i) {
+        const uint32_t cell = cell_from(search, near);
+        const hyst_q_line_t line = line_of(search, cell, piece);
+        uint32_t x;
+        uint32_t step;
+        found->cell = cell;
+        if (hyst_q_guess(&line, &x, &step) && hyst_q_solve(&line, x, step, &found->at)) {
+            const uint32_t reached = level_at(search, cell, reaching_end(search, found));
+            const uint32_t before = level_at(search, cell, short_end(search, found));
+            if (is_beyond(search, reached, piece->limit)) {
+                take_next(search, piece);
+            } else if (!is_beyond(search, piece->start, before)) {
+                return is_on_line(&search->model->knot[cell], search->rising, found->at.high);
+            } else {
+                *piece = piece_before(search, piece);
+            }
+        } else if (is_beyond(search, level_at_knot(search, search->rising ? near + 1 : near - 1),
+                             piece->limit)) {
+            take_next(search, piece);
+        } else {
+            near = search->rising ? near + 1 : near - 1;
+            if (near == end) {
+                return false;
+            }
+        }
+    }
+    return false;
+}
+
+/// Finds the boundary in a cell that holds it by looking at the whole memory each time.
+static void narrow(const search_t* search, found_t* found)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
+    hyst_q_boundary_t at = {0, (uint32_t)knot[1].input - (uint32_t)knot->input, 0, 0};
+    bool is_known[2] = {false, false};
+    while (at.high - at.low > 1 || !is_known[0] || !is_known[1]) {
+        const uint32_t x = at.high - at.low > 1 ? at.low + (at.high - at.low) / 2
+                           : is_known[0]        ? at.high
+                                                : at.low;
+        const hyst_q_value_t output =
+            look(search->model, search->state, found->cell, input_at(search, found->cell, x), search->rising);
+        const uint32_t excess = (uint32_t)output - goal_of(search);
+        if (falls_short(search, output) == search->rising) {
+            at.low = x;
+            at.low_excess = excess;
+            is_known[0] = true;
+        } else {
+            at.high = x;
+            at.high_excess = excess;
+            is_known[1] = true;
+        }
+    }
+    found->at = at;
 }
 
 /// Where the segment is taken as a whole.
@@ -312,39 +380,6 @@ static bool is_kink_short(const search_t* search, cells_t* cells, const kink_t* 
     }
 }
 
-/// The segment that play j is in.
-static uint32_t segment_of(const search_t* search, const uint32_t num_kept, const uint32_t j)
-{
-    return num_kept > 0 && j >= first_play(search, num_kept - 1) ? num_kept - 1 : num_kept;
-}
-
-static piece_t piece_of(const search_t* search, const uint32_t num_kept, const uint32_t end)
-{
-    const hyst_q_model_t* model = search->model;
-    const hyst_q_front_t front = HYST_Q(front_at)(model, search->state, num_kept, end);
-    piece_t piece;
-    piece.rest = search->rising ? front.below - model->cumulative_moment[end]
-                                : front.below + model->cumulative_moment[end];
-    piece.weight = model->cumulative_weight[end];
-    piece.num_kept = num_kept;
-    piece.end = end;
-    piece.start = search->rising ? 0 : UINT32_MAX;
-    if (end > 0) {
-        piece.start = limit_of(search, segment_of(search, num_kept, end - 1) + 1, end - 1);
-    }
-    piece.limit = limit_of(search, num_kept, end);
-    return piece;
-}
-
-/// The piece before, for one that has plays.
-static piece_t piece_before(const search_t* search, const piece_t* piece)
-{
-    const uint32_t index = segment_of(search, piece->num_kept, piece->end - 1);
-    const hyst_q_segment_t* segment = &search->state->segment[index];
-    const bool is_along = (segment->falling == 0) == search->rising;
-    return piece_of(search, index + 1, is_along ? first_play(search, index) : piece->end - 1);
-}
-
 /// The piece that holds the boundary or, where an estimate decided, one beside it. Narrows the cells too.
 static piece_t search_pieces(const search_t* search, cells_t* cells, const piece_t* near,
                              const hyst_q_front_t* far)
@@ -395,22 +430,6 @@ static void search_cells(const search_t* search, cells_t* cells, const piece_t* 
     }
 }
 
-/// Finds the boundary in the cell, from a piece that holds it or is not far from it.
-static void settle(const search_t* search, piece_t* piece, found_t* found)
-{
-    for (;;) {
-        solve_piece(search, piece, found);
-        if (is_beyond(search, level_at(search, found->cell, short_end(search, found)), piece->limit)) {
-            take_next(search, piece);
-        } else if (piece->end > 0 && is_beyond(search, piece->start,
-                                               level_at(search, found->cell, reaching_end(search, found)))) {
-            *piece = piece_before(search, piece);
-        } else {
-            return;
-        }
-    }
-}
-
 /// The knot behind the present input.
 static inline uint32_t knot_behind(const search_t* search)
 {
@@ -419,7 +438,7 @@ static inline uint32_t knot_behind(const search_t* search)
 
 /// Finds the boundary beyond the knot `near`, which falls short in `piece`. False where nothing within reach
 /// is nearer to the wanted output than the present one.
-static bool search_far(search_t* search, uint32_t near, piece_t* piece, found_t* found)
+static bool search_far(search_t* search, piece_t* piece, found_t* found)
 {
     const hyst_q_model_t* model = search->model;
     const uint32_t end = search->rising ? model->num_knots - 1 : 0;
@@ -429,93 +448,70 @@ static bool search_far(search_t* search, uint32_t near, piece_t* piece, found_t*
     const uint32_t nonhysteretic = model->knot[end].nonhysteretic;
     if (is_short(search, nonhysteretic, sum)) {
         search->clamped = true;
-        aim(search, hyst_q_total(model, nonhysteretic, sum));
+        search->wanted = hyst_q_total(model, nonhysteretic, sum);
         if (search->wanted == search->state->output) {
             return false;
         }
-        near = knot_behind(search);
-        *piece = present_piece(search);
     }
+    const uint32_t near = knot_behind(search);
     cells_t cells = {near, end, level_at_knot(search, near), level};
     *piece = search_pieces(search, &cells, piece, &front);
     search_cells(search, &cells, piece);
-    found->cell = cell_from(search, cells.near);
-    settle(search, piece, found);
+    if (!follow(search, cells.near, piece, found)) {
+        found->cell = cell_from(search, cells.near);
+        narrow(search, found);
+    }
     return true;
 }
 
 /// Finds the boundary, from the present input on; false as search_far.
 static bool find(search_t* search, piece_t* piece, found_t* found)
 {
-    uint32_t near = knot_behind(search);
     *piece = present_piece(search);
-    return walk(search, &near, piece, found) || search_far(search, near, piece, found);
+    if (apart(search->wanted, search->state->output) >> (HYST_Q_BITS - NEAR_BITS) == 0 &&
+        follow(search, knot_behind(search), piece, found)) {
+        return true;
+    }
+    *piece = present_piece(search);
+    return search_far(search, piece, found);
 }
 
-static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, const uint32_t x)
+/// The output that is so much above the goal, modulo the word.
+static hyst_q_value_t output_of(const search_t* search, const uint32_t excess)
 {
-    return (hyst_q_value_t)((int64_t)search->model->knot[cell].input + (int64_t)x);
+    const int64_t above = (excess & HYST_Q_WORD_MAX) <= HYST_Q_WORD_MAX / 2
+                              ? (int64_t)(excess & HYST_Q_WORD_MAX)
+                              : (int64_t)(excess & HYST_Q_WORD_MAX) - (int64_t)HYST_Q_WORD_MAX - 1;
+    return (hyst_q_value_t)((int64_t)search->wanted + (search->rising ? 0 : 1) + above);
 }
 
-/// The output at one end of the boundary, whose rise above the knot is known as far as the piece goes.
-static hyst_q_value_t output_at(const search_t* search, const piece_t* piece, const found_t* found,
-                                const uint32_t x, const uint32_t rise)
+/// The first input of the output `before`, which the short end of the boundary gives.
+static hyst_q_value_t first_of(search_t* search, const hyst_q_value_t before, piece_t* piece, found_t* found)
 {
-    const uint32_t level = level_at(search, found->cell, x);
-    if (is_beyond(search, level, piece->limit) || is_beyond(search, piece->start, level)) {
-        const hyst_q_value_t v = input_at(search, found->cell, x);
-        return look(search->model, search->state, found->cell, v, search->rising);
+    const hyst_q_value_t last = input_at(search, found->cell, short_end(search, found));
+    const hyst_q_value_t nearer = (hyst_q_value_t)(search->rising ? last - 1 : last + 1);
+    const uint32_t cell = HYST_Q(find_cell)(search->model, found->cell, nearer);
+    if (look(search->model, search->state, cell, nearer, search->rising) != before) {
+        return last;
     }
-    const uint32_t wanted_rise = found->line.need - (search->rising ? 0U : 1U);
-    return (hyst_q_value_t)((int64_t)search->wanted + (int64_t)rise - (int64_t)wanted_rise);
-}
-
-/// Moves the boundary to the first input of the output at its short end, where that is in the same cell and
-/// piece.
-static bool move_to_first(const search_t* search, const piece_t* piece, found_t* found)
-{
-    hyst_q_rise_t* line = &found->line;
-    hyst_q_stretch_t* stretch = &found->stretch;
-    const uint32_t width = (uint32_t)search->model->knot[found->cell + 1].input -
-                           (uint32_t)search->model->knot[found->cell].input;
-    if (search->rising) {
-        line->need = stretch->low_rise;
-        stretch->high = stretch->low;
-        stretch->low = 0;
-    } else {
-        line->need = stretch->high_rise + 1;
-        stretch->low = stretch->high;
-        stretch->high = width;
-    }
-    if (line->need == 0 || hyst_q_rise(line, stretch->high) < line->need) {
-        return false;
-    }
-    hyst_q_narrow(line, stretch, search->rising ? stretch->high - 1 : stretch->low + 1, 1);
-    const uint32_t level = level_at(search, found->cell, reaching_end(search, found));
-    return !is_beyond(search, piece->start, level) && !is_beyond(search, level, piece->limit);
-}
-
-/// Of the two outputs at the boundary the nearer one, and its first input.
-static hyst_q_value_t nearest(search_t* search, piece_t* piece, found_t* found)
-{
-    const hyst_q_stretch_t stretch = found->stretch;
-    const uint32_t reaching = reaching_end(search, found);
-    const uint32_t falling_short = short_end(search, found);
-    const hyst_q_value_t reached =
-        output_at(search, piece, found, reaching, search->rising ? stretch.high_rise : stretch.low_rise);
-    const hyst_q_value_t before =
-        output_at(search, piece, found, falling_short, search->rising ? stretch.low_rise : stretch.high_rise);
-    if (apart(search->wanted, before) > apart(reached, search->wanted)) {
-        return input_at(search, found->cell, reaching);
-    }
-    if (before == search->state->output) {
-        return search->state->input;
-    }
-    aim(search, before);
-    if (!move_to_first(search, piece, found)) {
+    search->wanted = before;
+    if (!follow(search, search->rising ? found->cell : found->cell + 1, piece, found)) {
         (void)find(search, piece, found);
     }
     return input_at(search, found->cell, reaching_end(search, found));
+}
+
+/// Of the two outputs at the boundary the nearer one, at its first input.
+static hyst_q_value_t nearest(search_t* search, piece_t* piece, found_t* found)
+{
+    const hyst_q_value_t above = output_of(search, found->at.high_excess);
+    const hyst_q_value_t below = output_of(search, found->at.low_excess);
+    const hyst_q_value_t reached = search->rising ? above : below;
+    const hyst_q_value_t before = search->rising ? below : above;
+    if (apart(search->wanted, before) > apart(reached, search->wanted)) {
+        return input_at(search, found->cell, reaching_end(search, found));
+    }
+    return before == search->state->output ? search->state->input : first_of(search, before, piece, found);
 }
 
 HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_state_t* state)
@@ -529,15 +525,11 @@ HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_stat
     return reach;
 }
 
-/// Whether the output at the boundary's reaching end is the wanted one, without a look at the memory.
-static inline bool is_exact(const search_t* search, const piece_t* piece, const found_t* found)
+/// Whether the boundary's reaching end gives the wanted output.
+static inline bool is_exact(const search_t* search, const found_t* found)
 {
-    const uint32_t far_level = level_at_knot(search, search->rising ? found->cell + 1 : found->cell);
-    const bool hits = search->rising ? found->stretch.high_rise == found->line.need
-                                     : found->stretch.low_rise + 1 == found->line.need;
-    return hits &&
-           (!is_beyond(search, far_level, piece->limit) ||
-            !is_beyond(search, level_at(search, found->cell, reaching_end(search, found)), piece->limit));
+    return search->rising ? (found->at.high_excess & HYST_Q_WORD_MAX) == 0
+                          : (found->at.low_excess & HYST_Q_WORD_MAX) == HYST_Q_WORD_MAX;
 }
 
 HYST_Q(inverse_t)
@@ -554,11 +546,11 @@ HYST_Q(inverse)(const hyst_q_model_t* model, const hyst_q_state_t* state, const 
     search.state = state;
     search.rising = wanted > state->output;
     search.clamped = false;
-    aim(&search, wanted);
+    search.wanted = wanted;
     piece_t piece;
     found_t found;
     if (find(&search, &piece, &found)) {
-        result.input = is_exact(&search, &piece, &found)
+        result.input = is_exact(&search, &found)
                            ? input_at(&search, found.cell, reaching_end(&search, &found))
                            : nearest(&search, &piece, &found);
     }

@@ -1,46 +1,46 @@
-/// The inverse within one cell of the table and one piece of the memory: integers solved as a line, then
-/// corrected. Included by hyst_q_inverse.h alone.
+/// A cell of the table and a piece of the memory as a line: where it reaches the wanted output.
 #ifndef HYST_Q_SOLVE_H
 #define HYST_Q_SOLVE_H
 
 #include "hyst_q_internal.h"
 #include <limits.h>
 
-/// In one cell, while the same plays move: how far the output lies above that of the lower knot, at the
-/// distance x from it.
+/// The output less the wanted one over the distance x from the cell's lower knot, rounded as the step rounds:
 ///
 ///   offset = x << shift
-///   rise   = min(D's line(offset), nonhysteretic_limit)
-///            + (weight * limited(envelope's line(offset)) + fraction) / 2^HYST_Q_BITS
+///   excess = at_knot + weight * scaled(level_slope, offset) + 2^HYST_Q_BITS * scaled(nonhysteretic_slope,
+///   offset)
 ///
-/// The envelope is limited to the levels of the piece, from `level_start` above its value at the knot on.
-/// Rounding is that of the step, so the rise is exact.
+/// in units of 2^-HYST_Q_BITS output units, one half added: negative, that is with its top bit set, where the
+/// output is below the wanted one. This holds for inputs whose outputs are less than half a word from the
+/// wanted one, and which neither curve's next value limits.
 typedef struct {
-    uint32_t shift;
-    uint32_t nonhysteretic_slope;
-    uint32_t nonhysteretic_limit;
-    uint32_t level_slope;
-    uint32_t level_start;
-    uint32_t level_limit; ///< counted from level_start
+    hyst_q_sum_t at_knot;
     uint32_t weight;
-    uint32_t fraction; ///< of the plays' sum at level_start and one half
-    uint32_t need;     ///< the rise that is looked for, >= 1
-} hyst_q_rise_t;
+    uint32_t level_slope;
+    uint32_t nonhysteretic_slope;
+    uint32_t shift;
+    uint32_t width; ///< of the cell, input units
+} hyst_q_line_t;
 
-static inline uint32_t hyst_q_rise(const hyst_q_rise_t* line, const uint32_t x)
+/// Two neighbouring distances, with what the output is above the wanted one, modulo the word: the output at
+/// `high` is not below the wanted one, that at `low` is.
+typedef struct {
+    uint32_t low, high;
+    uint32_t low_excess, high_excess;
+} hyst_q_boundary_t;
+
+static inline hyst_q_sum_t hyst_q_excess(const hyst_q_line_t* line, const uint32_t x)
 {
     const uint32_t offset = x << line->shift;
-    uint32_t nonhysteretic = hyst_q_scaled(line->nonhysteretic_slope, offset);
-    if (nonhysteretic > line->nonhysteretic_limit) {
-        nonhysteretic = line->nonhysteretic_limit;
-    }
-    uint32_t level = hyst_q_scaled(line->level_slope, offset);
-    level = level > line->level_start ? level - line->level_start : 0;
-    if (level > line->level_limit) {
-        level = line->level_limit;
-    }
-    const hyst_q_sum_t plays = hyst_q_product(line->weight, level) + line->fraction;
-    return nonhysteretic + (uint32_t)(plays >> HYST_Q_BITS);
+    const hyst_q_sum_t nonhysteretic = hyst_q_scaled(line->nonhysteretic_slope, offset);
+    const uint32_t level = hyst_q_scaled(line->level_slope, offset);
+    return line->at_knot + hyst_q_product(line->weight, level) + (nonhysteretic << HYST_Q_BITS);
+}
+
+static inline bool hyst_q_is_negative(const hyst_q_sum_t excess)
+{
+    return excess >> (2 * HYST_Q_BITS - 1) != 0;
 }
 
 /// Leading zeros of x > 0 in a word of 32 bits.
@@ -60,15 +60,12 @@ static inline uint32_t hyst_q_leading_zeros(uint32_t x)
 #endif
 }
 
-/// dividend / divisor or up to 13 less; divisor has no leading zeros after << zeros. What does not fit gives
-/// UINT32_MAX.
+/// dividend / divisor or up to 13 less, for a quotient that fits in a word; divisor << zeros has its top bit
+/// set.
 static inline uint32_t hyst_q_quotient(const hyst_q_sum_t dividend, const uint32_t divisor,
                                        const uint32_t zeros)
 {
 #if HYST_Q_BITS == 32
-    if ((uint32_t)(dividend >> 32) >= divisor) {
-        return UINT32_MAX;
-    }
     // lib/DESIGN.md, section 7: a reciprocal of 17 bits, never too large, and what it leaves once more.
     const uint32_t normal = divisor << zeros;
     const hyst_q_sum_t whole = dividend << zeros;
@@ -82,71 +79,69 @@ static inline uint32_t hyst_q_quotient(const hyst_q_sum_t dividend, const uint32
 #endif
 }
 
-/// A stretch of a cell: the rise falls short of the line's need at `low`, and does not at `high`.
-typedef struct {
-    uint32_t low, high;
-    uint32_t low_rise, high_rise;
-} hyst_q_stretch_t;
-
-/// Narrows the stretch to one unit: from `x` on, within it, by steps that double until the need is enclosed,
-/// and then by halving.
-static inline void hyst_q_narrow(const hyst_q_rise_t* line, hyst_q_stretch_t* stretch, uint32_t x,
-                                 uint32_t step)
+/// Where the line would reach the wanted output if nothing were rounded, in 1 ... width, and a power of two
+/// about as long as it takes to rise by one unit. False where that is not in the cell.
+static inline bool hyst_q_guess(const hyst_q_line_t* line, uint32_t* x, uint32_t* step)
 {
-    bool up = true;
-    bool is_first = true;
-    bool is_enclosed = false;
-    while (stretch->high - stretch->low > 1) {
-        const uint32_t rise = hyst_q_rise(line, x);
-        const bool is_short = rise < line->need;
-        if (is_short) {
-            stretch->low = x;
-            stretch->low_rise = rise;
-        } else {
-            stretch->high = x;
-            stretch->high_rise = rise;
-        }
-        is_enclosed = is_enclosed || (!is_first && is_short != up);
-        up = is_short;
-        is_first = false;
-        const uint32_t room = stretch->high - stretch->low;
-        if (is_enclosed || step >= room) {
-            x = stretch->low + room / 2;
-        } else {
-            x = up ? stretch->low + step : stretch->high - step;
-            step <<= step >> 31 == 0 ? 1U : 0U;
-        }
+    const hyst_q_sum_t missing = 0 - line->at_knot;
+    const uint32_t slope = line->nonhysteretic_slope + hyst_q_scaled(line->weight, line->level_slope);
+    if ((uint32_t)(missing >> HYST_Q_BITS) >= slope) {
+        return false;
     }
+    const uint32_t zeros = hyst_q_leading_zeros(slope);
+    const uint32_t ahead = hyst_q_quotient(missing, slope, zeros) >> line->shift;
+    const uint32_t flatness = zeros + HYST_Q_BITS - 32;
+    *x = ahead + 1;
+    *step = flatness > line->shift ? UINT32_C(1) << (flatness - line->shift) : 1U;
+    return ahead < line->width;
 }
 
-/// Solves the line as if nothing were rounded, and from there on exactly. The stretch is the cell.
-static inline void hyst_q_solve(const hyst_q_rise_t* line, hyst_q_stretch_t* stretch)
+/// Finds the boundary: from `x` on by steps that double until it is enclosed, and then by halving. False
+/// where it is not in the cell.
+static inline bool hyst_q_solve(const hyst_q_line_t* line, uint32_t x, uint32_t step,
+                                hyst_q_boundary_t* found)
 {
-    const uint32_t width = stretch->high;
-    if (width > 1) {
-        hyst_q_sum_t slope =
-            (hyst_q_sum_t)line->nonhysteretic_slope + hyst_q_scaled(line->weight, line->level_slope);
-        const hyst_q_sum_t start = hyst_q_product(line->weight, line->level_start);
-        hyst_q_sum_t rise = ((hyst_q_sum_t)line->need << HYST_Q_BITS) - line->fraction + start;
-        if (slope >> HYST_Q_BITS != 0) {
-            slope /= 2;
-            rise = ((hyst_q_sum_t)line->need << (HYST_Q_BITS - 1)) - line->fraction / 2 + start / 2;
-        }
-        uint32_t x = width - 1;
-        uint32_t step = width;
-        if (slope != 0) {
-            const uint32_t zeros = hyst_q_leading_zeros((uint32_t)slope);
-            const uint32_t ahead = hyst_q_quotient(rise, (uint32_t)slope, zeros) >> line->shift;
-            x = ahead + 1 < width ? ahead + 1 : width - 1;
-            // The power of two next above what it takes for one output unit, at least 1.
-            const uint32_t flatness = zeros + HYST_Q_BITS - 32;
-            step = flatness > line->shift ? UINT32_C(1) << (flatness - line->shift) : 1U;
-        }
-        hyst_q_narrow(line, stretch, x, step);
+    hyst_q_sum_t excess = hyst_q_excess(line, x);
+    hyst_q_sum_t other = excess;
+    found->low = x;
+    found->high = x;
+    if (hyst_q_is_negative(excess)) {
+        do {
+            if (found->high == line->width) {
+                return false;
+            }
+            excess = other;
+            found->low = found->high;
+            found->high = line->width - found->low > step ? found->low + step : line->width;
+            step |= step << 1;
+            other = hyst_q_excess(line, found->high);
+        } while (hyst_q_is_negative(other));
+    } else {
+        do {
+            if (found->low == 0) {
+                return false;
+            }
+            other = excess;
+            found->high = found->low;
+            found->low = found->high > step ? found->high - step : 0;
+            step |= step << 1;
+            excess = hyst_q_excess(line, found->low);
+        } while (!hyst_q_is_negative(excess));
     }
-    if (stretch->high_rise == 0) {
-        stretch->high_rise = hyst_q_rise(line, stretch->high);
+    while (found->high - found->low > 1) {
+        x = found->low + (found->high - found->low) / 2;
+        const hyst_q_sum_t middle = hyst_q_excess(line, x);
+        if (hyst_q_is_negative(middle)) {
+            found->low = x;
+            excess = middle;
+        } else {
+            found->high = x;
+            other = middle;
+        }
     }
+    found->low_excess = (uint32_t)(excess >> HYST_Q_BITS);
+    found->high_excess = (uint32_t)(other >> HYST_Q_BITS);
+    return true;
 }
 
 #endif
