@@ -232,11 +232,49 @@ static inline bool is_on_line(const hyst_q_knot_t* knot, const bool rising, cons
 }
 
 /// How many pieces and cells are followed, and the part of all outputs (2^-NEAR_BITS) that is near enough.
-enum { MOST_PIECES = 6, NEAR_BITS = 4 };
+enum { MOST_PIECES = 6, NEAR_BITS = 6 };
 
 static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, const uint32_t x)
 {
     return (hyst_q_value_t)((int64_t)search->model->knot[cell].input + (int64_t)x);
+}
+
+/// Finds the boundary in the cell by looking at the whole memory each time: from the distance `high` on by
+/// steps that double until it is enclosed, and then by halving. False where it is not in the cell.
+static bool narrow(const search_t* search, found_t* found)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
+    const uint32_t width = (uint32_t)knot[1].input - (uint32_t)knot->input;
+    hyst_q_boundary_t* at = &found->at;
+    uint32_t x = at->high;
+    uint32_t step = 1;
+    bool has_low = false;
+    bool has_high = false;
+    while (!has_low || !has_high || at->high - at->low > 1) {
+        const hyst_q_value_t v = input_at(search, found->cell, x);
+        const hyst_q_value_t output = look(search->model, search->state, found->cell, v, search->rising);
+        const uint32_t excess = (uint32_t)output - goal_of(search);
+        const bool is_low = falls_short(search, output) == search->rising;
+        if (is_low) {
+            at->low = x;
+            at->low_excess = excess;
+            has_low = true;
+        } else {
+            at->high = x;
+            at->high_excess = excess;
+            has_high = true;
+        }
+        if (has_low && has_high) {
+            x = at->low + (at->high - at->low) / 2;
+        } else if (x == (is_low ? width : 0)) {
+            return false;
+        } else {
+            const uint32_t room = is_low ? width - x : x;
+            x = is_low ? x + (step < room ? step : room) : x - (step < room ? step : room);
+            step |= step << 1;
+        }
+    }
+    return true;
 }
 
 /// Follows the output piece by piece and cell by cell from the knot `near` on. Where it finds a boundary,
@@ -248,56 +286,36 @@ static bool follow(const search_t* search, uint32_t near, piece_t* piece, found_
     for (uint32_t i = 0; i < MOST_PIECES; ++i) {
         const uint32_t cell = cell_from(search, near);
         const hyst_q_line_t line = line_of(search, cell, piece);
-        uint32_t x;
-        uint32_t step;
         found->cell = cell;
-        if (hyst_q_guess(&line, &x, &step) && hyst_q_solve(&line, x, step, &found->at)) {
+        if (hyst_q_is_negative(line.at_knot) && hyst_q_solve(&line, &found->at)) {
             const uint32_t reached = level_at(search, cell, reaching_end(search, found));
             const uint32_t before = level_at(search, cell, short_end(search, found));
             if (is_beyond(search, reached, piece->limit)) {
                 take_next(search, piece);
-            } else if (!is_beyond(search, piece->start, before)) {
-                return is_on_line(&search->model->knot[cell], search->rising, found->at.high);
-            } else {
+                continue;
+            }
+            if (is_beyond(search, piece->start, before)) {
                 *piece = piece_before(search, piece);
+                continue;
             }
-        } else if (is_beyond(search, level_at_knot(search, search->rising ? near + 1 : near - 1),
-                             piece->limit)) {
+            if (is_on_line(&search->model->knot[cell], search->rising, found->at.high) ||
+                narrow(search, found)) {
+                return true;
+            }
+        }
+        const uint32_t far = search->rising ? near + 1 : near - 1;
+        const uint32_t far_level = level_at_knot(search, far);
+        if (is_beyond(search, far_level, piece->limit)) {
             take_next(search, piece);
+        } else if (is_beyond(search, piece->start, far_level)) {
+            *piece = piece_before(search, piece);
+        } else if (far != end) {
+            near = far;
         } else {
-            near = search->rising ? near + 1 : near - 1;
-            if (near == end) {
-                return false;
-            }
+            return false;
         }
     }
     return false;
-}
-
-/// Finds the boundary in a cell that holds it by looking at the whole memory each time.
-static void narrow(const search_t* search, found_t* found)
-{
-    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
-    hyst_q_boundary_t at = {0, (uint32_t)knot[1].input - (uint32_t)knot->input, 0, 0};
-    bool is_known[2] = {false, false};
-    while (at.high - at.low > 1 || !is_known[0] || !is_known[1]) {
-        const uint32_t x = at.high - at.low > 1 ? at.low + (at.high - at.low) / 2
-                           : is_known[0]        ? at.high
-                                                : at.low;
-        const hyst_q_value_t output =
-            look(search->model, search->state, found->cell, input_at(search, found->cell, x), search->rising);
-        const uint32_t excess = (uint32_t)output - goal_of(search);
-        if (falls_short(search, output) == search->rising) {
-            at.low = x;
-            at.low_excess = excess;
-            is_known[0] = true;
-        } else {
-            at.high = x;
-            at.high_excess = excess;
-            is_known[1] = true;
-        }
-    }
-    found->at = at;
 }
 
 /// Where the segment is taken as a whole.
@@ -457,11 +475,12 @@ static bool search_far(search_t* search, piece_t* piece, found_t* found)
     cells_t cells = {near, end, level_at_knot(search, near), level};
     *piece = search_pieces(search, &cells, piece, &front);
     search_cells(search, &cells, piece);
-    if (!follow(search, cells.near, piece, found)) {
-        found->cell = cell_from(search, cells.near);
-        narrow(search, found);
+    if (follow(search, cells.near, piece, found)) {
+        return true;
     }
-    return true;
+    found->cell = cell_from(search, cells.near);
+    found->at.high = 0;
+    return narrow(search, found);
 }
 
 /// Finds the boundary, from the present input on; false as search_far.
@@ -496,7 +515,8 @@ static hyst_q_value_t first_of(search_t* search, const hyst_q_value_t before, pi
     }
     search->wanted = before;
     if (!follow(search, search->rising ? found->cell : found->cell + 1, piece, found)) {
-        (void)find(search, piece, found);
+        *piece = present_piece(search);
+        (void)search_far(search, piece, found);
     }
     return input_at(search, found->cell, reaching_end(search, found));
 }

@@ -80,67 +80,71 @@ static inline uint32_t hyst_q_quotient(const hyst_q_sum_t dividend, const uint32
 }
 
 /// Where the line would reach the wanted output if nothing were rounded, in 1 ... width, and a power of two
-/// about as long as it takes to rise by one unit. False where that is not in the cell.
-static inline bool hyst_q_guess(const hyst_q_line_t* line, uint32_t* x, uint32_t* step)
+/// about as long as it takes to rise by one unit.
+static inline uint32_t hyst_q_guess(const hyst_q_line_t* line, uint32_t* step)
 {
     const hyst_q_sum_t missing = 0 - line->at_knot;
     const uint32_t slope = line->nonhysteretic_slope + hyst_q_scaled(line->weight, line->level_slope);
+    *step = 1;
     if ((uint32_t)(missing >> HYST_Q_BITS) >= slope) {
-        return false;
+        return line->width;
     }
     const uint32_t zeros = hyst_q_leading_zeros(slope);
-    const uint32_t ahead = hyst_q_quotient(missing, slope, zeros) >> line->shift;
     const uint32_t flatness = zeros + HYST_Q_BITS - 32;
-    *x = ahead + 1;
-    *step = flatness > line->shift ? UINT32_C(1) << (flatness - line->shift) : 1U;
-    return ahead < line->width;
+    if (flatness > line->shift) {
+        *step = UINT32_C(1) << (flatness - line->shift);
+    }
+    const uint32_t ahead = hyst_q_quotient(missing, slope, zeros) >> line->shift;
+    return ahead < line->width ? ahead + 1 : line->width;
 }
 
-/// Finds the boundary: from `x` on by steps that double until it is enclosed, and then by halving. False
-/// where it is not in the cell.
-static inline bool hyst_q_solve(const hyst_q_line_t* line, uint32_t x, uint32_t step,
-                                hyst_q_boundary_t* found)
+/// Finds the boundary: from the guess on by steps that double until it is enclosed, and then by halving.
+/// False where it is not in the cell.
+static inline bool hyst_q_solve(const hyst_q_line_t* line, hyst_q_boundary_t* found)
 {
-    hyst_q_sum_t excess = hyst_q_excess(line, x);
-    hyst_q_sum_t other = excess;
-    found->low = x;
-    found->high = x;
-    if (hyst_q_is_negative(excess)) {
+    uint32_t step;
+    uint32_t low = hyst_q_guess(line, &step);
+    uint32_t high = low;
+    hyst_q_sum_t low_excess = hyst_q_excess(line, low);
+    hyst_q_sum_t high_excess = low_excess;
+    if (hyst_q_is_negative(low_excess)) {
         do {
-            if (found->high == line->width) {
+            if (high == line->width) {
                 return false;
             }
-            excess = other;
-            found->low = found->high;
-            found->high = line->width - found->low > step ? found->low + step : line->width;
+            low = high;
+            low_excess = high_excess;
+            high = line->width - low > step ? low + step : line->width;
             step |= step << 1;
-            other = hyst_q_excess(line, found->high);
-        } while (hyst_q_is_negative(other));
+            high_excess = hyst_q_excess(line, high);
+        } while (hyst_q_is_negative(high_excess));
     } else {
         do {
-            if (found->low == 0) {
+            if (low == 0) {
                 return false;
             }
-            other = excess;
-            found->high = found->low;
-            found->low = found->high > step ? found->high - step : 0;
+            high = low;
+            high_excess = low_excess;
+            low = high > step ? high - step : 0;
             step |= step << 1;
-            excess = hyst_q_excess(line, found->low);
-        } while (!hyst_q_is_negative(excess));
+            low_excess = hyst_q_excess(line, low);
+        } while (!hyst_q_is_negative(low_excess));
     }
-    while (found->high - found->low > 1) {
-        x = found->low + (found->high - found->low) / 2;
-        const hyst_q_sum_t middle = hyst_q_excess(line, x);
-        if (hyst_q_is_negative(middle)) {
-            found->low = x;
-            excess = middle;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        const hyst_q_sum_t excess = hyst_q_excess(line, middle);
+        if (hyst_q_is_negative(excess)) {
+            low = middle;
+            low_excess = excess;
         } else {
-            found->high = x;
-            other = middle;
+            high = middle;
+            high_excess = excess;
         }
     }
-    found->low_excess = (uint32_t)(excess >> HYST_Q_BITS);
-    found->high_excess = (uint32_t)(other >> HYST_Q_BITS);
+    found->low = low;
+    found->high = high;
+    found->low_excess = (uint32_t)(low_excess >> HYST_Q_BITS);
+    found->high_excess = (uint32_t)(high_excess >> HYST_Q_BITS);
     return true;
 }
 
