@@ -277,24 +277,46 @@ static bool narrow(const search_t* search, found_t* found)
     return true;
 }
 
+/// The same in the cell beyond the knot, which holds the boundary.
+static bool narrow_cell(const search_t* search, const uint32_t near, found_t* found)
+{
+    found->cell = cell_from(search, near);
+    found->at.high = 0;
+    return narrow(search, found);
+}
+
+/// Goes on to the next cell, or to another piece where this one does not reach so far. False at the end of
+/// the range.
+static bool go_on(const search_t* search, uint32_t* near, piece_t* piece)
+{
+    const uint32_t far = search->rising ? *near + 1 : *near - 1;
+    const uint32_t level = level_at_knot(search, far);
+    if (is_beyond(search, level, piece->limit)) {
+        take_next(search, piece);
+    } else if (is_beyond(search, piece->start, level)) {
+        *piece = piece_before(search, piece);
+    } else {
+        *near = far;
+        return far != (search->rising ? search->model->num_knots - 1 : 0);
+    }
+    return true;
+}
+
 /// Follows the output piece by piece and cell by cell from the knot `near` on. Where it finds a boundary,
 /// both its ends lie in the piece and the cell in whose line it was found: this proves it, however it was
 /// come upon.
-static bool follow(const search_t* search, uint32_t near, piece_t* piece, found_t* found)
+static inline bool follow(const search_t* search, uint32_t near, piece_t* piece, found_t* found)
 {
-    const uint32_t end = search->rising ? search->model->num_knots - 1 : 0;
     for (uint32_t i = 0; i < MOST_PIECES; ++i) {
         const uint32_t cell = cell_from(search, near);
         const hyst_q_line_t line = line_of(search, cell, piece);
         found->cell = cell;
         if (hyst_q_is_negative(line.at_knot) && hyst_q_solve(&line, &found->at)) {
-            const uint32_t reached = level_at(search, cell, reaching_end(search, found));
-            const uint32_t before = level_at(search, cell, short_end(search, found));
-            if (is_beyond(search, reached, piece->limit)) {
+            if (is_beyond(search, level_at(search, cell, reaching_end(search, found)), piece->limit)) {
                 take_next(search, piece);
                 continue;
             }
-            if (is_beyond(search, piece->start, before)) {
+            if (is_beyond(search, piece->start, level_at(search, cell, short_end(search, found)))) {
                 *piece = piece_before(search, piece);
                 continue;
             }
@@ -303,15 +325,7 @@ static bool follow(const search_t* search, uint32_t near, piece_t* piece, found_
                 return true;
             }
         }
-        const uint32_t far = search->rising ? near + 1 : near - 1;
-        const uint32_t far_level = level_at_knot(search, far);
-        if (is_beyond(search, far_level, piece->limit)) {
-            take_next(search, piece);
-        } else if (is_beyond(search, piece->start, far_level)) {
-            *piece = piece_before(search, piece);
-        } else if (far != end) {
-            near = far;
-        } else {
+        if (!go_on(search, &near, piece)) {
             return false;
         }
     }
@@ -454,9 +468,9 @@ static inline uint32_t knot_behind(const search_t* search)
     return search->rising ? search->state->cell : search->state->cell + 1;
 }
 
-/// Finds the boundary beyond the knot `near`, which falls short in `piece`. False where nothing within reach
-/// is nearer to the wanted output than the present one.
-static bool search_far(search_t* search, piece_t* piece, found_t* found)
+/// Searches all of the range for the cell that holds the boundary, and its piece. Returns the cell's near
+/// knot. What lies out of reach is clamped to the last output within.
+static uint32_t search_far(search_t* search, piece_t* piece)
 {
     const hyst_q_model_t* model = search->model;
     const uint32_t end = search->rising ? model->num_knots - 1 : 0;
@@ -467,32 +481,13 @@ static bool search_far(search_t* search, piece_t* piece, found_t* found)
     if (is_short(search, nonhysteretic, sum)) {
         search->clamped = true;
         search->wanted = hyst_q_total(model, nonhysteretic, sum);
-        if (search->wanted == search->state->output) {
-            return false;
-        }
     }
     const uint32_t near = knot_behind(search);
     cells_t cells = {near, end, level_at_knot(search, near), level};
+    *piece = present_piece(search);
     *piece = search_pieces(search, &cells, piece, &front);
     search_cells(search, &cells, piece);
-    if (follow(search, cells.near, piece, found)) {
-        return true;
-    }
-    found->cell = cell_from(search, cells.near);
-    found->at.high = 0;
-    return narrow(search, found);
-}
-
-/// Finds the boundary, from the present input on; false as search_far.
-static bool find(search_t* search, piece_t* piece, found_t* found)
-{
-    *piece = present_piece(search);
-    if (apart(search->wanted, search->state->output) >> (HYST_Q_BITS - NEAR_BITS) == 0 &&
-        follow(search, knot_behind(search), piece, found)) {
-        return true;
-    }
-    *piece = present_piece(search);
-    return search_far(search, piece, found);
+    return cells.near;
 }
 
 /// The output that is so much above the goal, modulo the word.
@@ -504,34 +499,34 @@ static hyst_q_value_t output_of(const search_t* search, const uint32_t excess)
     return (hyst_q_value_t)((int64_t)search->wanted + (search->rising ? 0 : 1) + above);
 }
 
-/// The first input of the output `before`, which the short end of the boundary gives.
-static hyst_q_value_t first_of(search_t* search, const hyst_q_value_t before, piece_t* piece, found_t* found)
+/// Whether the next input nearer than the boundary's short end gives another output than that one.
+static bool is_first(const search_t* search, const found_t* found, const hyst_q_value_t output)
 {
     const hyst_q_value_t last = input_at(search, found->cell, short_end(search, found));
     const hyst_q_value_t nearer = (hyst_q_value_t)(search->rising ? last - 1 : last + 1);
     const uint32_t cell = HYST_Q(find_cell)(search->model, found->cell, nearer);
-    if (look(search->model, search->state, cell, nearer, search->rising) != before) {
-        return last;
-    }
-    search->wanted = before;
-    if (!follow(search, search->rising ? found->cell : found->cell + 1, piece, found)) {
-        *piece = present_piece(search);
-        (void)search_far(search, piece, found);
-    }
-    return input_at(search, found->cell, reaching_end(search, found));
+    return look(search->model, search->state, cell, nearer, search->rising) != output;
 }
 
-/// Of the two outputs at the boundary the nearer one, at its first input.
-static hyst_q_value_t nearest(search_t* search, piece_t* piece, found_t* found)
+/// Answers with the nearer of the two outputs at the boundary, at its first input. False where that has to be
+/// searched for: it is now the wanted output.
+static bool answer_nearest(search_t* search, const found_t* found, hyst_q_value_t* input)
 {
     const hyst_q_value_t above = output_of(search, found->at.high_excess);
     const hyst_q_value_t below = output_of(search, found->at.low_excess);
     const hyst_q_value_t reached = search->rising ? above : below;
     const hyst_q_value_t before = search->rising ? below : above;
     if (apart(search->wanted, before) > apart(reached, search->wanted)) {
-        return input_at(search, found->cell, reaching_end(search, found));
+        *input = input_at(search, found->cell, reaching_end(search, found));
+    } else if (before == search->state->output) {
+        *input = search->state->input;
+    } else if (is_first(search, found, before)) {
+        *input = input_at(search, found->cell, short_end(search, found));
+    } else {
+        search->wanted = before;
+        return false;
     }
-    return before == search->state->output ? search->state->input : first_of(search, before, piece, found);
+    return true;
 }
 
 HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_state_t* state)
@@ -552,28 +547,47 @@ static inline bool is_exact(const search_t* search, const found_t* found)
                           : (found->at.low_excess & HYST_Q_WORD_MAX) == HYST_Q_WORD_MAX;
 }
 
+/// Finds the answer for a wanted output other than the present one.
+static inline hyst_q_value_t answer(search_t* search)
+{
+    hyst_q_value_t input;
+    found_t found;
+    piece_t piece = present_piece(search);
+    uint32_t near = knot_behind(search);
+    bool is_far = apart(search->wanted, search->state->output) >> (HYST_Q_BITS - NEAR_BITS) != 0;
+    for (;;) {
+        if (is_far) {
+            near = search_far(search, &piece);
+            if (search->wanted == search->state->output) {
+                return search->state->input;
+            }
+        }
+        if (follow(search, near, &piece, &found) || (is_far && narrow_cell(search, near, &found))) {
+            if (is_exact(search, &found)) {
+                return input_at(search, found.cell, reaching_end(search, &found));
+            }
+            if (answer_nearest(search, &found, &input)) {
+                return input;
+            }
+            near = search->rising ? found.cell : found.cell + 1;
+            is_far = false;
+        } else {
+            is_far = true;
+        }
+    }
+}
+
 HYST_Q(inverse_t)
 HYST_Q(inverse)(const hyst_q_model_t* model, const hyst_q_state_t* state, const hyst_q_value_t wanted)
 {
     HYST_Q(inverse_t) result;
-    result.input = state->input;
-    result.clamped = false;
-    if (wanted == state->output) {
-        return result;
-    }
     search_t search;
     search.model = model;
     search.state = state;
+    search.wanted = wanted;
     search.rising = wanted > state->output;
     search.clamped = false;
-    search.wanted = wanted;
-    piece_t piece;
-    found_t found;
-    if (find(&search, &piece, &found)) {
-        result.input = is_exact(&search, &found)
-                           ? input_at(&search, found.cell, reaching_end(&search, &found))
-                           : nearest(&search, &piece, &found);
-    }
+    result.input = wanted == state->output ? state->input : answer(&search);
     result.clamped = search.clamped;
     return result;
 }

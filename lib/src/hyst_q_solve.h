@@ -60,19 +60,20 @@ static inline uint32_t hyst_q_leading_zeros(uint32_t x)
 #endif
 }
 
-/// dividend / divisor or up to 13 less, for a quotient that fits in a word; divisor << zeros has its top bit
+/// dividend / divisor or a little less, for a quotient that fits in a word; divisor << zeros has its top bit
 /// set.
 static inline uint32_t hyst_q_quotient(const hyst_q_sum_t dividend, const uint32_t divisor,
                                        const uint32_t zeros)
 {
 #if HYST_Q_BITS == 32
-    // lib/DESIGN.md, section 7: a reciprocal of 17 bits, never too large, and what it leaves once more.
+    // lib/DESIGN.md, section 7: a reciprocal never too large, and what it leaves once more; at most 24 less.
     const uint32_t normal = divisor << zeros;
-    const hyst_q_sum_t whole = dividend << zeros;
-    const uint32_t reciprocal = UINT32_MAX / ((normal >> 16) + 1);
-    const uint32_t first = (uint32_t)(hyst_q_product((uint32_t)(whole >> 32), reciprocal) >> 16);
-    const hyst_q_sum_t left = whole - hyst_q_product(first, normal);
-    return first + (uint32_t)(hyst_q_product((uint32_t)(left >> 32), reciprocal) >> 16);
+    const uint32_t whole =
+        ((uint32_t)(dividend >> 32) << zeros) | (((uint32_t)dividend >> 1) >> (31 - zeros));
+    const uint32_t reciprocal = (UINT32_MAX / ((normal >> 16) + 1)) << 15;
+    const uint32_t first = (uint32_t)(hyst_q_product(whole, reciprocal) >> 32) << 1;
+    const uint32_t left = whole - (uint32_t)(hyst_q_product(first, normal) >> 32);
+    return first + ((uint32_t)(hyst_q_product(left, reciprocal) >> 32) << 1);
 #else
     (void)zeros;
     return dividend / divisor;
