@@ -77,8 +77,8 @@ static uint32_t count_moved(const hyst_q_model_t* model, const hyst_q_segment_t*
     return low;
 }
 
-hyst_q_front_t HYST_Q(front_at)(const hyst_q_model_t* model, const hyst_q_state_t* state,
-                                const uint32_t num_kept, const uint32_t end)
+static inline hyst_q_front_t front_at(const hyst_q_model_t* model, const hyst_q_state_t* state,
+                                      const uint32_t num_kept, const uint32_t end)
 {
     hyst_q_front_t front = {end, num_kept, 0};
     if (num_kept == 0) {
@@ -93,16 +93,22 @@ hyst_q_front_t HYST_Q(front_at)(const hyst_q_model_t* model, const hyst_q_state_
     return front;
 }
 
+hyst_q_front_t HYST_Q(front_at)(const hyst_q_model_t* model, const hyst_q_state_t* state,
+                                const uint32_t num_kept, const uint32_t end)
+{
+    return front_at(model, state, num_kept, end);
+}
+
 hyst_q_front_t HYST_Q(find_front)(const hyst_q_model_t* model, const hyst_q_state_t* state,
                                   const uint32_t level, const bool rising)
 {
     const uint32_t num_kept = count_kept(model, state, level, rising);
     if (num_kept == 0) {
-        return HYST_Q(front_at)(model, state, 0, model->num_plays);
+        return front_at(model, state, 0, model->num_plays);
     }
     const uint32_t begin = first_play(state, num_kept - 1);
     const uint32_t end = count_moved(model, &state->segment[num_kept - 1], begin, level, rising);
-    return HYST_Q(front_at)(model, state, num_kept, end);
+    return front_at(model, state, num_kept, end);
 }
 
 void HYST_Q(replace)(const hyst_q_model_t* model, hyst_q_state_t* state, const uint32_t level,

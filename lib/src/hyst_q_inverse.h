@@ -239,9 +239,22 @@ static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, cons
     return (hyst_q_value_t)((int64_t)search->model->knot[cell].input + (int64_t)x);
 }
 
-/// Finds the boundary in the cell by looking at the whole memory each time: from the distance `high` on by
+/// The output at the distance x from the cell's lower knot.
+static hyst_q_value_t output_at(const search_t* search, const piece_t* piece, const uint32_t cell,
+                                const uint32_t x)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    const uint32_t level = level_at(search, cell, x);
+    if (is_beyond(search, level, piece->limit) || is_beyond(search, piece->start, level)) {
+        return look(search->model, search->state, cell, input_at(search, cell, x), search->rising);
+    }
+    return hyst_q_total(search->model, hyst_q_nonhysteretic(knot, x << knot->shift),
+                        piece->rest + hyst_q_product(piece->weight, level));
+}
+
+/// Finds the boundary in the cell by looking at one output after the other: from the distance `high` on by
 /// steps that double until it is enclosed, and then by halving. False where it is not in the cell.
-static bool narrow(const search_t* search, found_t* found)
+static bool narrow(const search_t* search, const piece_t* piece, found_t* found)
 {
     const hyst_q_knot_t* knot = &search->model->knot[found->cell];
     const uint32_t width = (uint32_t)knot[1].input - (uint32_t)knot->input;
@@ -251,9 +264,8 @@ static bool narrow(const search_t* search, found_t* found)
     bool has_low = false;
     bool has_high = false;
     while (!has_low || !has_high || at->high - at->low > 1) {
-        const hyst_q_value_t v = input_at(search, found->cell, x);
-        const hyst_q_value_t output = look(search->model, search->state, found->cell, v, search->rising);
-        const uint32_t excess = (uint32_t)output - goal_of(search);
+        const hyst_q_value_t output = output_at(search, piece, found->cell, x);
+        const uint32_t excess = ((uint32_t)output - goal_of(search)) & HYST_Q_WORD_MAX;
         const bool is_low = falls_short(search, output) == search->rising;
         if (is_low) {
             at->low = x;
@@ -278,11 +290,11 @@ static bool narrow(const search_t* search, found_t* found)
 }
 
 /// The same in the cell beyond the knot, which holds the boundary.
-static bool narrow_cell(const search_t* search, const uint32_t near, found_t* found)
+static void narrow_cell(const search_t* search, const piece_t* piece, const uint32_t near, found_t* found)
 {
     found->cell = cell_from(search, near);
-    found->at.high = 0;
-    return narrow(search, found);
+    found->at = (hyst_q_boundary_t){0, 0, 0, 0};
+    (void)narrow(search, piece, found);
 }
 
 /// Goes on to the next cell, or to another piece where this one does not reach so far. False at the end of
@@ -321,7 +333,7 @@ static inline bool follow(const search_t* search, uint32_t near, piece_t* piece,
                 continue;
             }
             if (is_on_line(&search->model->knot[cell], search->rising, found->at.high) ||
-                narrow(search, found)) {
+                narrow(search, piece, found)) {
                 return true;
             }
         }
@@ -493,24 +505,30 @@ static uint32_t search_far(search_t* search, piece_t* piece)
 /// The output that is so much above the goal, modulo the word.
 static hyst_q_value_t output_of(const search_t* search, const uint32_t excess)
 {
-    const int64_t above = (excess & HYST_Q_WORD_MAX) <= HYST_Q_WORD_MAX / 2
-                              ? (int64_t)(excess & HYST_Q_WORD_MAX)
-                              : (int64_t)(excess & HYST_Q_WORD_MAX) - (int64_t)HYST_Q_WORD_MAX - 1;
+    const int64_t above =
+        excess <= HYST_Q_WORD_MAX / 2 ? (int64_t)excess : (int64_t)excess - (int64_t)HYST_Q_WORD_MAX - 1;
     return (hyst_q_value_t)((int64_t)search->wanted + (search->rising ? 0 : 1) + above);
 }
 
-/// Whether the next input nearer than the boundary's short end gives another output than that one.
-static bool is_first(const search_t* search, const found_t* found, const hyst_q_value_t output)
+/// Whether the next input nearer than the boundary's short end gives another output than that.
+static bool is_first(const search_t* search, const piece_t* piece, const found_t* found,
+                     const hyst_q_value_t output)
 {
-    const hyst_q_value_t last = input_at(search, found->cell, short_end(search, found));
-    const hyst_q_value_t nearer = (hyst_q_value_t)(search->rising ? last - 1 : last + 1);
-    const uint32_t cell = HYST_Q(find_cell)(search->model, found->cell, nearer);
-    return look(search->model, search->state, cell, nearer, search->rising) != output;
+    const uint32_t x = short_end(search, found);
+    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
+    if (x != (search->rising ? 0 : (uint32_t)knot[1].input - (uint32_t)knot->input)) {
+        return output_at(search, piece, found->cell, search->rising ? x - 1 : x + 1) != output;
+    }
+    const hyst_q_value_t v = input_at(search, found->cell, x);
+    const uint32_t cell = search->rising ? found->cell - 1 : found->cell + 1;
+    const hyst_q_value_t beside = (hyst_q_value_t)(search->rising ? v - 1 : v + 1);
+    return look(search->model, search->state, cell, beside, search->rising) != output;
 }
 
 /// Answers with the nearer of the two outputs at the boundary, at its first input. False where that has to be
 /// searched for: it is now the wanted output.
-static bool answer_nearest(search_t* search, const found_t* found, hyst_q_value_t* input)
+static bool answer_nearest(search_t* search, const piece_t* piece, const found_t* found,
+                           hyst_q_value_t* input)
 {
     const hyst_q_value_t above = output_of(search, found->at.high_excess);
     const hyst_q_value_t below = output_of(search, found->at.low_excess);
@@ -520,7 +538,7 @@ static bool answer_nearest(search_t* search, const found_t* found, hyst_q_value_
         *input = input_at(search, found->cell, reaching_end(search, found));
     } else if (before == search->state->output) {
         *input = search->state->input;
-    } else if (is_first(search, found, before)) {
+    } else if (is_first(search, piece, found, before)) {
         *input = input_at(search, found->cell, short_end(search, found));
     } else {
         search->wanted = before;
@@ -543,11 +561,11 @@ HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_stat
 /// Whether the boundary's reaching end gives the wanted output.
 static inline bool is_exact(const search_t* search, const found_t* found)
 {
-    return search->rising ? (found->at.high_excess & HYST_Q_WORD_MAX) == 0
-                          : (found->at.low_excess & HYST_Q_WORD_MAX) == HYST_Q_WORD_MAX;
+    return search->rising ? found->at.high_excess == 0 : found->at.low_excess == HYST_Q_WORD_MAX;
 }
 
-/// Finds the answer for a wanted output other than the present one.
+/// Finds the answer for a wanted output other than the present one. Two rounds at most: the second one looks
+/// for an output that there is.
 static inline hyst_q_value_t answer(search_t* search)
 {
     hyst_q_value_t input;
@@ -562,18 +580,21 @@ static inline hyst_q_value_t answer(search_t* search)
                 return search->state->input;
             }
         }
-        if (follow(search, near, &piece, &found) || (is_far && narrow_cell(search, near, &found))) {
-            if (is_exact(search, &found)) {
-                return input_at(search, found.cell, reaching_end(search, &found));
+        if (!follow(search, near, &piece, &found)) {
+            if (!is_far) {
+                is_far = true;
+                continue;
             }
-            if (answer_nearest(search, &found, &input)) {
-                return input;
-            }
-            near = search->rising ? found.cell : found.cell + 1;
-            is_far = false;
-        } else {
-            is_far = true;
+            narrow_cell(search, &piece, near, &found);
         }
+        if (is_exact(search, &found)) {
+            return input_at(search, found.cell, reaching_end(search, &found));
+        }
+        if (answer_nearest(search, &piece, &found, &input)) {
+            return input;
+        }
+        near = search->rising ? found.cell : found.cell + 1;
+        is_far = false;
     }
 }
 
