@@ -232,7 +232,7 @@ static inline bool is_on_line(const hyst_q_knot_t* knot, const bool rising, cons
 }
 
 /// How many pieces and cells are followed, and the part of all outputs (2^-NEAR_BITS) that is near enough.
-enum { MOST_PIECES = 6, NEAR_BITS = 6 };
+enum { MOST_PIECES = 5, NEAR_BITS = 6 };
 
 static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, const uint32_t x)
 {
@@ -292,8 +292,9 @@ static bool narrow(const search_t* search, const piece_t* piece, found_t* found)
 /// The same in the cell beyond the knot, which holds the boundary.
 static void narrow_cell(const search_t* search, const piece_t* piece, const uint32_t near, found_t* found)
 {
+    const hyst_q_boundary_t start = {0, 0, 0, 0};
     found->cell = cell_from(search, near);
-    found->at = (hyst_q_boundary_t){0, 0, 0, 0};
+    found->at = start;
     (void)narrow(search, piece, found);
 }
 
