@@ -60,13 +60,13 @@ static inline uint32_t hyst_q_leading_zeros(uint32_t x)
 #endif
 }
 
-/// dividend / divisor or a little less, for a quotient that fits in a word; divisor << zeros has its top bit
-/// set.
+/// dividend / divisor to within 16, modulo the word, for a quotient that fits in one; divisor << zeros has
+/// its top bit set.
 static inline uint32_t hyst_q_quotient(const hyst_q_sum_t dividend, const uint32_t divisor,
                                        const uint32_t zeros)
 {
 #if HYST_Q_BITS == 32
-    // lib/DESIGN.md, section 7: a reciprocal never too large, and what it leaves once more; at most 24 less.
+    // A reciprocal of 17 bits, and what it leaves over once more: lib/DESIGN.md, section 7.
     const uint32_t normal = divisor << zeros;
     const uint32_t whole =
         ((uint32_t)(dividend >> 32) << zeros) | (((uint32_t)dividend >> 1) >> (31 - zeros));
@@ -91,9 +91,9 @@ static inline uint32_t hyst_q_guess(const hyst_q_line_t* line, uint32_t* step)
         return line->width;
     }
     const uint32_t zeros = hyst_q_leading_zeros(slope);
-    const uint32_t flatness = zeros + HYST_Q_BITS - 32;
-    if (flatness > line->shift) {
-        *step = UINT32_C(1) << (flatness - line->shift);
+    const uint32_t flat = line->shift + (32 - HYST_Q_BITS);
+    if (zeros > flat) {
+        *step = UINT32_C(1) << (zeros - flat);
     }
     const uint32_t ahead = hyst_q_quotient(missing, slope, zeros) >> line->shift;
     return ahead < line->width ? ahead + 1 : line->width;
