@@ -7,7 +7,7 @@ typedef struct {
 } found_t;
 
 /// How many pieces and cells are followed, and the part of all outputs (2^-NEAR_BITS) that is near enough.
-enum { MOST_PIECES = 5, NEAR_BITS = 6 };
+enum { MOST_PIECES = 6, NEAR_BITS = 7 };
 
 /// The output that v, in `cell`, would give.
 static hyst_q_value_t look(const hyst_q_model_t* model, const hyst_q_state_t* state, const uint32_t cell,
