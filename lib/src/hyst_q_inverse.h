@@ -247,8 +247,8 @@ static inline bool is_exact(const search_t* search, const found_t* found)
     return search->rising ? found->at.high_excess == 0 : found->at.low_excess == HYST_Q_WORD_MAX;
 }
 
-/// Finds the answer for a wanted output other than the present one. Two rounds at most: the second one looks
-/// for an output that there is.
+/// Finds the answer for a wanted output other than the present one: where the nearest output is given by more
+/// than one input, in a second round for the first of them.
 static inline hyst_q_value_t answer(search_t* search)
 {
     hyst_q_value_t input;
@@ -256,6 +256,7 @@ static inline hyst_q_value_t answer(search_t* search)
     piece_t piece = present_piece(search);
     uint32_t near = knot_behind(search);
     bool is_far = apart(search->wanted, search->state->output) >> (HYST_Q_BITS - NEAR_BITS) != 0;
+    bool is_second = false;
     for (;;) {
         if (is_far) {
             near = search_far(search, &piece);
@@ -270,7 +271,7 @@ static inline hyst_q_value_t answer(search_t* search)
             }
             narrow_cell(search, &piece, near, &found);
         }
-        if (is_exact(search, &found)) {
+        if (is_second || is_exact(search, &found)) {
             return input_at(search, found.cell, reaching_end(search, &found));
         }
         if (answer_nearest(search, &piece, &found, &input)) {
@@ -278,6 +279,7 @@ static inline hyst_q_value_t answer(search_t* search)
         }
         near = search->rising ? found.cell : found.cell + 1;
         is_far = false;
+        is_second = true;
     }
 }
 
