@@ -247,39 +247,41 @@ static inline bool is_exact(const search_t* search, const found_t* found)
     return search->rising ? found->at.high_excess == 0 : found->at.low_excess == HYST_Q_WORD_MAX;
 }
 
-/// Finds the answer for a wanted output other than the present one: where the nearest output is given by more
-/// than one input, in a second round for the first of them.
+/// Where the boundary is looked for: first by following, then all over the range. Where the nearest output is
+/// given by more than one input, the last two look for the first of them.
+typedef enum { NEAR, FAR, FIRST_NEAR, FIRST_FAR } phase_t;
+
+/// Finds the answer for a wanted output other than the present one.
 static inline hyst_q_value_t answer(search_t* search)
 {
     hyst_q_value_t input;
     found_t found;
     piece_t piece = present_piece(search);
     uint32_t near = knot_behind(search);
-    bool is_far = apart(search->wanted, search->state->output) >> (HYST_Q_BITS - NEAR_BITS) != 0;
-    bool is_second = false;
+    const uint32_t way = apart(search->wanted, search->state->output);
+    phase_t phase = way >> (HYST_Q_BITS - NEAR_BITS) == 0 ? NEAR : FAR;
     for (;;) {
-        if (is_far) {
+        if (phase == FAR || phase == FIRST_FAR) {
             near = search_far(search, &piece);
             if (search->wanted == search->state->output) {
                 return search->state->input;
             }
         }
         if (!follow(search, near, &piece, &found)) {
-            if (!is_far) {
-                is_far = true;
+            if (phase == NEAR || phase == FIRST_NEAR) {
+                phase = phase == NEAR ? FAR : FIRST_FAR;
                 continue;
             }
             narrow_cell(search, &piece, near, &found);
         }
-        if (is_second || is_exact(search, &found)) {
+        if (is_exact(search, &found) || phase >= FIRST_NEAR) {
             return input_at(search, found.cell, reaching_end(search, &found));
         }
         if (answer_nearest(search, &piece, &found, &input)) {
             return input;
         }
         near = search->rising ? found.cell : found.cell + 1;
-        is_far = false;
-        is_second = true;
+        phase = FIRST_NEAR;
     }
 }
 
