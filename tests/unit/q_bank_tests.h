@@ -7,7 +7,7 @@
 #include "random_model.h"
 #include <unity.h>
 
-enum { NUM_CHANNELS = 6, NUM_SHARING = 40, MOST_PLAYS = 64, NUM_SAMPLES = 50 };
+enum { NUM_CHANNELS = 3, NUM_SHARING = 40, MOST_PLAYS = 64, NUM_SAMPLES = 50 };
 
 static q_model_t single[NUM_CHANNELS];
 static q_model_t banked[NUM_CHANNELS];

@@ -146,7 +146,7 @@ static void assert_erases(random_t* random, const model_t* model, uint32_t cycle
 static void test_erases_any_past_within_the_bound(void)
 {
     random_t random = random_new(1);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 24; ++i) {
         model_t model = random_model(&random);
         weigh_moving_plays(&model);
         assert_erases(&random, &model, 1 + (uint32_t)random_below(&random, 200));
