@@ -208,20 +208,25 @@ static double rise(const model_t* rescaled_to, const quantized_t* quantized, whi
     return (curve_value(curve, high) - curve_value(curve, low)) / unit;
 }
 
-/// Appends the knots above the last one up to `end`, as many as it takes for slopes to fit in a word: a cell
-/// may rise by less than half of what a word holds. False: not even neighbouring inputs are close enough.
+/// Appends the knots above the last one up to `end`, as many as it takes for the inverse's lines to hold
+/// (lib/DESIGN.md, section 7): in a cell of more than one input no curve rises by more than an eighth of what
+/// a word holds. False where slopes do not fit in a word: a curve rises by more than half of it from one
+/// input to the next.
 static bool append_cell(const model_t* rescaled_to, const quantized_t* quantized, knots_t* knots, int32_t end)
 {
-    const double most = 0.5 * unity(quantized) - 4.0;
+    const double most = 0.125 * unity(quantized) - 4.0;
+    const double most_of_one = 0.5 * unity(quantized) - 4.0;
     while (knots->input[knots->num_knots - 1] < end) {
         const int64_t start = knots->input[knots->num_knots - 1];
         int64_t next = end;
         for (int which = 0; which < NUM_CURVES; ++which) {
-            while (rise(rescaled_to, quantized, (which_curve_t)which, (double)start, (double)next) > most) {
-                if (next == start + 1) {
-                    return false;
-                }
+            while (next > start + 1 &&
+                   rise(rescaled_to, quantized, (which_curve_t)which, (double)start, (double)next) > most) {
                 next = start + (next - start) / 2;
+            }
+            if (rise(rescaled_to, quantized, (which_curve_t)which, (double)start, (double)next) >
+                most_of_one) {
+                return false;
             }
         }
         append(knots, (int32_t)next);

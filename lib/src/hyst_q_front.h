@@ -77,23 +77,38 @@ static uint32_t count_moved(const hyst_q_model_t* model, const hyst_q_segment_t*
     return low;
 }
 
+static inline hyst_q_front_t front_at(const hyst_q_model_t* model, const hyst_q_state_t* state,
+                                      const uint32_t num_kept, const uint32_t end)
+{
+    hyst_q_front_t front = {end, num_kept, 0};
+    if (num_kept == 0) {
+        return front;
+    }
+    const hyst_q_segment_t* cut = &state->segment[num_kept - 1];
+    if (end == first_play(state, num_kept - 1) && num_kept < state->num_segments) {
+        front.below = hyst_q_below(model, &state->segment[num_kept]);
+    } else {
+        front.below = hyst_q_below(model, cut) + hyst_q_part(model, end, cut->end, cut->level, cut->falling);
+    }
+    return front;
+}
+
+hyst_q_front_t HYST_Q(front_at)(const hyst_q_model_t* model, const hyst_q_state_t* state,
+                                const uint32_t num_kept, const uint32_t end)
+{
+    return front_at(model, state, num_kept, end);
+}
+
 hyst_q_front_t HYST_Q(find_front)(const hyst_q_model_t* model, const hyst_q_state_t* state,
                                   const uint32_t level, const bool rising)
 {
-    hyst_q_front_t front = {model->num_plays, count_kept(model, state, level, rising), 0};
-    if (front.num_kept == 0) {
-        return front;
+    const uint32_t num_kept = count_kept(model, state, level, rising);
+    if (num_kept == 0) {
+        return front_at(model, state, 0, model->num_plays);
     }
-    const hyst_q_segment_t* cut = &state->segment[front.num_kept - 1];
-    const uint32_t begin = first_play(state, front.num_kept - 1);
-    front.end = count_moved(model, cut, begin, level, rising);
-    if (front.end == begin && front.num_kept < state->num_segments) {
-        front.below = hyst_q_below(model, &state->segment[front.num_kept]);
-    } else {
-        front.below =
-            hyst_q_below(model, cut) + hyst_q_part(model, front.end, cut->end, cut->level, cut->falling);
-    }
-    return front;
+    const uint32_t begin = first_play(state, num_kept - 1);
+    const uint32_t end = count_moved(model, &state->segment[num_kept - 1], begin, level, rising);
+    return front_at(model, state, num_kept, end);
 }
 
 void HYST_Q(replace)(const hyst_q_model_t* model, hyst_q_state_t* state, const uint32_t level,

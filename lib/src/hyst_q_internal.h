@@ -33,10 +33,24 @@ typedef uint32_t hyst_q_sum_t;
 typedef int32_t hyst_q_wide_t;
 #endif
 
+#include "hyst/hyst_snapshot.h"
+
 typedef HYST_Q(knot_t) hyst_q_knot_t;
 typedef HYST_Q(model_t) hyst_q_model_t;
 typedef HYST_Q(segment_t) hyst_q_segment_t;
 typedef HYST_Q(state_t) hyst_q_state_t;
+
+/// Half of the input's range, rounded down: how far its middle lies above input_min.
+static inline uint32_t hyst_q_half_range(const hyst_q_model_t* model)
+{
+    return ((uint32_t)model->input_max - (uint32_t)model->input_min) / 2;
+}
+
+/// `distance` units above input_min. At most input_max; the sum is taken where it cannot overflow.
+static inline hyst_q_value_t hyst_q_input_above(const hyst_q_model_t* model, const uint32_t distance)
+{
+    return (hyst_q_value_t)((int64_t)model->input_min + (int64_t)distance);
+}
 
 /// Half up: x / 2^HYST_Q_BITS to the nearest integer.
 static inline uint32_t hyst_q_round(const hyst_q_sum_t x)
@@ -194,6 +208,40 @@ static inline uint32_t hyst_q_kink(const hyst_q_model_t* model, const hyst_q_seg
     return segment->falling ? segment->level : segment->level - 2U * model->radius[j];
 }
 
+/// Number `index` of a snapshot. *segment goes along with it, from the topmost one on.
+static inline uint32_t hyst_q_saved_number(const hyst_q_model_t* model, const hyst_q_state_t* state,
+                                           const uint32_t index, uint32_t* segment)
+{
+    if (index == 0) {
+        return (uint32_t)state->input - (uint32_t)model->input_min;
+    }
+    while (state->segment[*segment].end < index) {
+        --*segment;
+    }
+    return hyst_q_play(model, &state->segment[*segment], index - 1);
+}
+
+enum { HYST_Q_NUMBERS_IN_WORD = 32 / HYST_Q_BITS };
+
+/// A snapshot's numbers, one by one or, where that is NULL, packed into words, the first one lowest.
+typedef struct {
+    const hyst_q_word_t* single;
+    const hyst_word_t* packed;
+} hyst_q_numbers_t;
+
+static inline uint32_t hyst_q_number(const hyst_q_numbers_t* numbers, const uint32_t index)
+{
+    if (numbers->single != NULL) {
+        return numbers->single[index];
+    }
+    const uint32_t word = numbers->packed[index / HYST_Q_NUMBERS_IN_WORD].bits;
+    return (word >> (index % HYST_Q_NUMBERS_IN_WORD * HYST_Q_BITS)) & HYST_Q_WORD_MAX;
+}
+
+/// As hyst_q31_restore, for arguments that have been checked.
+HYST_NODISCARD hyst_status_t HYST_Q(restore_numbers)(const hyst_q_model_t* model, hyst_q_state_t* state,
+                                                     const hyst_q_numbers_t* saved);
+
 /// Where an envelope's push ends: it moves the plays before `end` and leaves `num_kept` segments at the
 /// stack's bottom.
 typedef struct {
@@ -208,6 +256,10 @@ uint32_t HYST_Q(find_cell)(const hyst_q_model_t* model, uint32_t guess, hyst_q_v
 /// Looks how far a push to `level` would go.
 hyst_q_front_t HYST_Q(find_front)(const hyst_q_model_t* model, const hyst_q_state_t* state, uint32_t level,
                                   bool rising);
+
+/// The push that ends there, known already.
+hyst_q_front_t HYST_Q(front_at)(const hyst_q_model_t* model, const hyst_q_state_t* state, uint32_t num_kept,
+                                uint32_t end);
 
 /// Puts a new segment in place of those that a push to `level` moves as a whole, and of the first plays of
 /// the next one that it moves. Play 0 moves.

@@ -1,189 +1,21 @@
-#include "hyst_q_internal.h"
+#include "hyst_q_far.h"
 
-/// An input on the way, by its distance from the present one, and the output there.
+/// The boundary in one cell.
 typedef struct {
-    uint32_t distance;
-    hyst_q_value_t output;
-} point_t;
-
-/// A search away from the present input for the nearest one whose output reaches `wanted`. It lies behind
-/// `near`, whose output falls short, and not behind `far`, whose output does not.
-typedef struct {
-    const hyst_q_model_t* model;
-    const hyst_q_state_t* state;
-    hyst_q_value_t wanted;
-    bool rising;
-    bool clamped; ///< the output asked for is out of reach: `wanted` is the last one within
     uint32_t cell;
-    point_t near;
-    point_t far;
-} search_t;
+    hyst_q_boundary_t at;
+} found_t;
 
-static hyst_q_value_t input_at(const search_t* search, const uint32_t distance)
-{
-    const int64_t from = search->state->input;
-    return (hyst_q_value_t)(search->rising ? from + (int64_t)distance : from - (int64_t)distance);
-}
-
-static uint32_t distance_of(const search_t* search, const hyst_q_value_t v)
-{
-    const uint32_t up = (uint32_t)v - (uint32_t)search->state->input;
-    return search->rising ? up : 0U - up;
-}
+/// How many pieces and cells are followed, and the part of all outputs (2^-NEAR_BITS) that is near enough.
+enum { MOST_PIECES = 6, NEAR_BITS = 7 };
 
 /// The output that v, in `cell`, would give.
 static hyst_q_value_t look(const hyst_q_model_t* model, const hyst_q_state_t* state, const uint32_t cell,
                            const hyst_q_value_t v, const bool rising)
 {
-    if (v == state->input) {
-        return state->output;
-    }
     const uint32_t level = hyst_q_envelope(model, cell, v, rising);
     const hyst_q_front_t front = HYST_Q(find_front)(model, state, level, rising);
     return hyst_q_output(model, cell, v, front.below + hyst_q_front_part(model, front.end, level, !rising));
-}
-
-static bool falls_short(const search_t* search, const hyst_q_value_t output)
-{
-    return search->rising ? output < search->wanted : output > search->wanted;
-}
-
-/// Takes the point as the stretch's near or far end; true: the near one.
-static bool narrow(search_t* search, const uint32_t distance, const hyst_q_value_t output)
-{
-    const point_t point = {distance, output};
-    const bool short_of = falls_short(search, output);
-    if (short_of) {
-        search->near = point;
-    } else {
-        search->far = point;
-    }
-    return short_of;
-}
-
-/// Whether the answer lies in the present cell, which is then the stretch.
-static bool is_in_present_cell(search_t* search)
-{
-    const uint32_t cell = search->state->cell;
-    const hyst_q_value_t v = search->model->knot[search->rising ? cell + 1 : cell].input;
-    search->cell = cell;
-    return !narrow(search, distance_of(search, v),
-                   look(search->model, search->state, cell, v, search->rising));
-}
-
-/// Takes the rest of the range as the stretch; what is beyond its last output is clamped to that.
-static void take_range(search_t* search)
-{
-    const hyst_q_model_t* model = search->model;
-    const hyst_q_value_t end = search->rising ? model->input_max : model->input_min;
-    search->far.distance = distance_of(search, end);
-    search->far.output =
-        look(model, search->state, search->rising ? model->num_knots - 2 : 0, end, search->rising);
-    if (falls_short(search, search->far.output)) {
-        search->clamped = true;
-        search->wanted = search->far.output;
-        search->near.distance = 0;
-        search->near.output = search->state->output;
-    }
-}
-
-/// Narrows the stretch to one cell of the table.
-static void search_cells(search_t* search)
-{
-    const hyst_q_model_t* model = search->model;
-    const uint32_t first = search->state->cell;
-    uint32_t low = search->rising ? first : 0;
-    uint32_t high = search->rising ? model->num_knots - 2 : first;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        const hyst_q_value_t v = model->knot[middle + 1].input;
-        const bool short_of =
-            narrow(search, distance_of(search, v), look(model, search->state, middle, v, search->rising));
-        if (short_of == search->rising) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    search->cell = low;
-}
-
-/// How many plays an input at this distance in the cell moves.
-static hyst_q_front_t front_at(const search_t* search, const uint32_t distance)
-{
-    const uint32_t level =
-        hyst_q_envelope(search->model, search->cell, input_at(search, distance), search->rising);
-    return HYST_Q(find_front)(search->model, search->state, level, search->rising);
-}
-
-/// The state of play j, found among the segments by halving.
-static uint32_t play_state(const hyst_q_model_t* model, const hyst_q_state_t* state, const uint32_t j)
-{
-    uint32_t low = 0;
-    uint32_t high = state->num_segments - 1;
-    while (low < high) {
-        const uint32_t middle = high - (high - low) / 2;
-        if (state->segment[middle].end > j) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
-    }
-    return hyst_q_play(model, &state->segment[low], j);
-}
-
-/// The least distance at which play j moves; it does at the far end of the stretch.
-static uint32_t kink(const search_t* search, const uint32_t j)
-{
-    const hyst_q_knot_t* knot = &search->model->knot[search->cell];
-    const uint32_t value = search->rising ? knot->ascending : knot->descending;
-    const uint32_t slope = search->rising ? knot->ascending_slope : knot->descending_slope;
-    const uint32_t w = play_state(search->model, search->state, j);
-    const uint32_t radius = search->model->radius[j];
-    // The first level that the line must reach: one above w + r when rising; falling, one below w - r is the
-    // last level before it reaches w - r.
-    const uint32_t level = search->rising ? w + radius + 1 : w - radius;
-    uint32_t behind = 0; // of the knot, the least at which the line reaches the level
-    if (level > value) {
-        const hyst_q_sum_t needed = ((hyst_q_sum_t)(level - value) << HYST_Q_BITS) - HYST_Q_HALF;
-        const hyst_q_sum_t unit = (hyst_q_sum_t)slope << knot->shift;
-        behind = (uint32_t)((needed - 1) / unit + 1);
-    }
-    // How far the knot lies ahead of the present input; a knot behind it wraps and comes right with the sum.
-    const uint32_t ahead = (uint32_t)knot->input - (uint32_t)search->state->input;
-    return search->rising ? ahead + behind : 1U - (ahead + behind);
-}
-
-/// Narrows the stretch until no play starts to move between its ends. Returns which plays move in there.
-static hyst_q_front_t search_kinks(search_t* search)
-{
-    hyst_q_front_t front = front_at(search, search->near.distance);
-    uint32_t high = front_at(search, search->far.distance).end;
-    // The next kink first: a small correction does not reach it.
-    uint32_t middle = front.end;
-    while (front.end < high) {
-        const uint32_t distance = kink(search, middle);
-        const hyst_q_value_t v = input_at(search, distance);
-        const hyst_q_value_t output = look(search->model, search->state, search->cell, v, search->rising);
-        if (narrow(search, distance, output)) {
-            front = front_at(search, distance);
-        } else {
-            high = middle;
-        }
-        middle = front.end + (high - front.end) / 2;
-    }
-    return front;
-}
-
-/// The output at this distance, within a stretch whose plays before front->end move.
-static hyst_q_value_t output_within(const search_t* search, const hyst_q_front_t* front,
-                                    const uint32_t distance)
-{
-    const hyst_q_model_t* model = search->model;
-    const hyst_q_value_t v = input_at(search, distance);
-    const uint32_t level = hyst_q_envelope(model, search->cell, v, search->rising);
-    return hyst_q_output(model, search->cell, v,
-                         front->below + hyst_q_front_part(model, front->end, level, !search->rising));
 }
 
 static uint32_t apart(const hyst_q_value_t a, const hyst_q_value_t b)
@@ -191,102 +23,279 @@ static uint32_t apart(const hyst_q_value_t a, const hyst_q_value_t b)
     return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;
 }
 
-/// Where the straight line between the stretch's ends reaches the wanted output: between the ends.
-static uint32_t straight(const search_t* search)
+/// The least output that does not fall short of a rising search, or does of a falling one.
+static inline uint32_t goal_of(const search_t* search)
 {
-    const uint32_t width = search->far.distance - search->near.distance;
-    const hyst_q_sum_t rise = apart(search->far.output, search->near.output);
-    const hyst_q_sum_t part = apart(search->wanted, search->near.output);
-    const uint32_t ahead = (uint32_t)(part * width / rise);
-    return search->near.distance + (ahead == 0 ? 1U : ahead == width ? width - 1 : ahead);
+    return (uint32_t)search->wanted + (search->rising ? 0U : 1U);
 }
 
-/// Finds the answer in a stretch without kinks. Rounding takes the outputs off a straight line by a few
-/// units: from where that line says, steps that double enclose the answer, and halvings find it.
-static void search_stretch(search_t* search, const hyst_q_front_t* front)
+/// The cell as a line, as if the piece's plays, and no others, moved over the whole of it.
+static inline hyst_q_line_t line_of(const search_t* search, const uint32_t cell, const piece_t* piece)
 {
-    if (search->far.distance - search->near.distance < 2) {
-        return;
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    const uint32_t level = search->rising ? knot->ascending : knot->descending;
+    const uint32_t above = (uint32_t)search->model->constant + knot->nonhysteretic - goal_of(search);
+    hyst_q_line_t line;
+    line.at_knot = piece->rest + hyst_q_product(piece->weight, level) + HYST_Q_HALF +
+                   ((hyst_q_sum_t)above << HYST_Q_BITS);
+    line.weight = piece->weight;
+    line.level_slope = search->rising ? knot->ascending_slope : knot->descending_slope;
+    line.nonhysteretic_slope = knot->nonhysteretic_slope;
+    line.shift = knot->shift;
+    line.width = (uint32_t)knot[1].input - (uint32_t)knot->input;
+    return line;
+}
+
+/// The envelope's level at the distance x from the cell's lower knot.
+static inline uint32_t level_at(const search_t* search, const uint32_t cell, const uint32_t x)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    return hyst_q_level(knot, x << knot->shift, search->rising);
+}
+
+/// Of the two inputs at the boundary the one that falls short, and the one that does not.
+static inline uint32_t short_end(const search_t* search, const found_t* found)
+{
+    return search->rising ? found->at.low : found->at.high;
+}
+
+static inline uint32_t reaching_end(const search_t* search, const found_t* found)
+{
+    return search->rising ? found->at.high : found->at.low;
+}
+
+/// Whether the output at the distance x is what the line says: neither curve is limited by its next value.
+static inline bool is_on_line(const hyst_q_knot_t* knot, const bool rising, const uint32_t x)
+{
+    const uint32_t offset = x << knot->shift;
+    const uint32_t level = rising ? knot->ascending + hyst_q_scaled(knot->ascending_slope, offset)
+                                  : knot->descending + hyst_q_scaled(knot->descending_slope, offset);
+    return level <= (rising ? knot[1].ascending : knot[1].descending) &&
+           knot->nonhysteretic + hyst_q_scaled(knot->nonhysteretic_slope, offset) <= knot[1].nonhysteretic;
+}
+
+static hyst_q_value_t input_at(const search_t* search, const uint32_t cell, const uint32_t x)
+{
+    return (hyst_q_value_t)((int64_t)search->model->knot[cell].input + (int64_t)x);
+}
+
+/// The output at the distance x from the cell's lower knot.
+static hyst_q_value_t output_at(const search_t* search, const piece_t* piece, const uint32_t cell,
+                                const uint32_t x)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[cell];
+    const uint32_t level = level_at(search, cell, x);
+    if (is_beyond(search, level, piece->limit) || is_beyond(search, piece->start, level)) {
+        return look(search->model, search->state, cell, input_at(search, cell, x), search->rising);
     }
-    uint32_t distance = straight(search);
+    return hyst_q_total(search->model, hyst_q_nonhysteretic(knot, x << knot->shift),
+                        piece->rest + hyst_q_product(piece->weight, level));
+}
+
+/// Finds the boundary in the cell by looking at one output after the other: from the distance `high` on by
+/// steps that double until it is enclosed, and then by halving. False where it is not in the cell.
+static bool narrow(const search_t* search, const piece_t* piece, found_t* found)
+{
+    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
+    const uint32_t width = (uint32_t)knot[1].input - (uint32_t)knot->input;
+    hyst_q_boundary_t* at = &found->at;
+    uint32_t x = at->high;
     uint32_t step = 1;
-    bool outward = narrow(search, distance, output_within(search, front, distance));
-    bool enclosed = false;
-    while (search->far.distance - search->near.distance > 1) {
-        const uint32_t room = search->far.distance - search->near.distance;
-        if (enclosed || step >= room) {
-            distance = search->near.distance + room / 2;
+    bool has_low = false;
+    bool has_high = false;
+    while (!has_low || !has_high || at->high - at->low > 1) {
+        const hyst_q_value_t output = output_at(search, piece, found->cell, x);
+        const uint32_t excess = ((uint32_t)output - goal_of(search)) & HYST_Q_WORD_MAX;
+        const bool is_low = falls_short(search, output) == search->rising;
+        if (is_low) {
+            at->low = x;
+            at->low_excess = excess;
+            has_low = true;
         } else {
-            distance = outward ? search->near.distance + step : search->far.distance - step;
-            step *= 2;
+            at->high = x;
+            at->high_excess = excess;
+            has_high = true;
         }
-        const bool short_of = narrow(search, distance, output_within(search, front, distance));
-        enclosed = enclosed || short_of != outward;
+        if (has_low && has_high) {
+            x = at->low + (at->high - at->low) / 2;
+        } else if (x == (is_low ? width : 0)) {
+            return false;
+        } else {
+            const uint32_t room = is_low ? width - x : x;
+            x = is_low ? x + (step < room ? step : room) : x - (step < room ? step : room);
+            step |= step << 1;
+        }
     }
+    return true;
 }
 
-/// Finds the nearest input whose output reaches `wanted`, as the far end of a stretch of one unit; or, where
-/// nothing within reach is nearer to it than the present output, the present input.
-static void find_reaching(search_t* search)
+/// The same in the cell beyond the knot, which holds the boundary.
+static void narrow_cell(const search_t* search, const piece_t* piece, const uint32_t near, found_t* found)
 {
-    search->near.distance = 0;
-    search->near.output = search->state->output;
-    if (!is_in_present_cell(search)) {
-        take_range(search);
-        if (search->wanted == search->state->output) {
-            search->far = search->near;
-            return;
-        }
-        search_cells(search);
-    }
-    const hyst_q_front_t front = search_kinks(search);
-    search_stretch(search, &front);
+    const hyst_q_boundary_t start = {0, 0, 0, 0};
+    found->cell = cell_from(search, near);
+    found->at = start;
+    (void)narrow(search, piece, found);
 }
 
-/// Whether the next input nearer than `near` gives another output.
-static bool is_first_of_its_output(const search_t* search)
+/// Goes on to the next cell, or to another piece where this one does not reach so far. False at the end of
+/// the range.
+static bool go_on(const search_t* search, uint32_t* near, piece_t* piece)
 {
-    const hyst_q_value_t v = input_at(search, search->near.distance - 1);
-    const uint32_t cell = HYST_Q(find_cell)(search->model, search->cell, v);
-    return look(search->model, search->state, cell, v, search->rising) != search->near.output;
+    const uint32_t far = search->rising ? *near + 1 : *near - 1;
+    const uint32_t level = level_at_knot(search, far);
+    if (is_beyond(search, level, piece->limit)) {
+        take_next(search, piece);
+    } else if (is_beyond(search, piece->start, level)) {
+        *piece = piece_before(search, piece);
+    } else {
+        *near = far;
+        return far != (search->rising ? search->model->num_knots - 1 : 0);
+    }
+    return true;
+}
+
+/// Follows the output piece by piece and cell by cell from the knot `near` on. Where it finds a boundary,
+/// both its ends lie in the piece and the cell in whose line it was found: this proves it, however it was
+/// come upon.
+static inline bool follow(const search_t* search, uint32_t near, piece_t* piece, found_t* found)
+{
+    for (uint32_t i = 0; i < MOST_PIECES; ++i) {
+        const uint32_t cell = cell_from(search, near);
+        const hyst_q_line_t line = line_of(search, cell, piece);
+        found->cell = cell;
+        if (hyst_q_is_negative(line.at_knot) && hyst_q_solve(&line, &found->at)) {
+            if (is_beyond(search, level_at(search, cell, reaching_end(search, found)), piece->limit)) {
+                take_next(search, piece);
+                continue;
+            }
+            if (is_beyond(search, piece->start, level_at(search, cell, short_end(search, found)))) {
+                *piece = piece_before(search, piece);
+                continue;
+            }
+            if (is_on_line(&search->model->knot[cell], search->rising, found->at.high) ||
+                narrow(search, piece, found)) {
+                return true;
+            }
+        }
+        if (!go_on(search, &near, piece)) {
+            return false;
+        }
+    }
+    return false;
+}
+
+/// The output that is so much above the goal, modulo the word.
+static hyst_q_value_t output_of(const search_t* search, const uint32_t excess)
+{
+    const int64_t above =
+        excess <= HYST_Q_WORD_MAX / 2 ? (int64_t)excess : (int64_t)excess - (int64_t)HYST_Q_WORD_MAX - 1;
+    return (hyst_q_value_t)((int64_t)search->wanted + (search->rising ? 0 : 1) + above);
+}
+
+/// Whether the next input nearer than the boundary's short end gives another output than that.
+static bool is_first(const search_t* search, const piece_t* piece, const found_t* found,
+                     const hyst_q_value_t output)
+{
+    const uint32_t x = short_end(search, found);
+    const hyst_q_knot_t* knot = &search->model->knot[found->cell];
+    if (x != (search->rising ? 0 : (uint32_t)knot[1].input - (uint32_t)knot->input)) {
+        return output_at(search, piece, found->cell, search->rising ? x - 1 : x + 1) != output;
+    }
+    const hyst_q_value_t v = input_at(search, found->cell, x);
+    const uint32_t cell = search->rising ? found->cell - 1 : found->cell + 1;
+    const hyst_q_value_t beside = (hyst_q_value_t)(search->rising ? v - 1 : v + 1);
+    return look(search->model, search->state, cell, beside, search->rising) != output;
+}
+
+/// Answers with the nearer of the two outputs at the boundary, at its first input. False where that has to be
+/// searched for: it is now the wanted output.
+static bool answer_nearest(search_t* search, const piece_t* piece, const found_t* found,
+                           hyst_q_value_t* input)
+{
+    const hyst_q_value_t above = output_of(search, found->at.high_excess);
+    const hyst_q_value_t below = output_of(search, found->at.low_excess);
+    const hyst_q_value_t reached = search->rising ? above : below;
+    const hyst_q_value_t before = search->rising ? below : above;
+    if (apart(search->wanted, before) > apart(reached, search->wanted)) {
+        *input = input_at(search, found->cell, reaching_end(search, found));
+    } else if (before == search->state->output) {
+        *input = search->state->input;
+    } else if (is_first(search, piece, found, before)) {
+        *input = input_at(search, found->cell, short_end(search, found));
+    } else {
+        search->wanted = before;
+        return false;
+    }
+    return true;
 }
 
 HYST_Q(reach_t) HYST_Q(reachable)(const hyst_q_model_t* model, const hyst_q_state_t* state)
 {
     HYST_Q(reach_t) reach;
-    reach.reachable_min = look(model, state, 0, model->input_min, false);
-    reach.reachable_max = look(model, state, model->num_knots - 2, model->input_max, true);
+    const hyst_q_value_t low = model->input_min;
+    const hyst_q_value_t high = model->input_max;
+    reach.reachable_min = low == state->input ? state->output : look(model, state, 0, low, false);
+    reach.reachable_max =
+        high == state->input ? state->output : look(model, state, model->num_knots - 2, high, true);
     return reach;
+}
+
+/// Whether the boundary's reaching end gives the wanted output.
+static inline bool is_exact(const search_t* search, const found_t* found)
+{
+    return search->rising ? found->at.high_excess == 0 : found->at.low_excess == HYST_Q_WORD_MAX;
+}
+
+/// Where the boundary is looked for: first by following, then all over the range. Where the nearest output is
+/// given by more than one input, the last two look for the first of them.
+typedef enum { NEAR, FAR, FIRST_NEAR, FIRST_FAR } phase_t;
+
+/// Finds the answer for a wanted output other than the present one.
+static inline hyst_q_value_t answer(search_t* search)
+{
+    hyst_q_value_t input;
+    found_t found;
+    piece_t piece = present_piece(search);
+    uint32_t near = knot_behind(search);
+    const uint32_t way = apart(search->wanted, search->state->output);
+    phase_t phase = way >> (HYST_Q_BITS - NEAR_BITS) == 0 ? NEAR : FAR;
+    for (;;) {
+        if (phase == FAR || phase == FIRST_FAR) {
+            near = search_far(search, &piece);
+            if (search->wanted == search->state->output) {
+                return search->state->input;
+            }
+        }
+        if (!follow(search, near, &piece, &found)) {
+            if (phase == NEAR || phase == FIRST_NEAR) {
+                phase = phase == NEAR ? FAR : FIRST_FAR;
+                continue;
+            }
+            narrow_cell(search, &piece, near, &found);
+        }
+        if (is_exact(search, &found) || phase >= FIRST_NEAR) {
+            return input_at(search, found.cell, reaching_end(search, &found));
+        }
+        if (answer_nearest(search, &piece, &found, &input)) {
+            return input;
+        }
+        near = search->rising ? found.cell : found.cell + 1;
+        phase = FIRST_NEAR;
+    }
 }
 
 HYST_Q(inverse_t)
 HYST_Q(inverse)(const hyst_q_model_t* model, const hyst_q_state_t* state, const hyst_q_value_t wanted)
 {
-    search_t search;
     HYST_Q(inverse_t) result;
-    result.input = state->input;
-    result.clamped = false;
-    if (wanted == state->output) {
-        return result;
-    }
+    search_t search;
     search.model = model;
     search.state = state;
     search.wanted = wanted;
     search.rising = wanted > state->output;
     search.clamped = false;
-    find_reaching(&search);
+    result.input = wanted == state->output ? state->input : answer(&search);
     result.clamped = search.clamped;
-    if (apart(search.wanted, search.near.output) <= apart(search.far.output, search.wanted)) {
-        if (search.near.output == state->output) {
-            return result;
-        }
-        if (is_first_of_its_output(&search)) {
-            search.far = search.near;
-        } else {
-            search.wanted = search.near.output;
-            find_reaching(&search);
-        }
-    }
-    result.input = input_at(&search, search.far.distance);
     return result;
 }

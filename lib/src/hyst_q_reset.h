@@ -6,21 +6,10 @@ typedef struct {
     uint32_t bottom; ///< descending, at the middle - amplitude
 } span_t;
 
-static uint32_t half_range(const hyst_q_model_t* model)
-{
-    return ((uint32_t)model->input_max - (uint32_t)model->input_min) / 2;
-}
-
-/// `distance` units above input_min. At most input_max; the sum is taken where it cannot overflow.
-static hyst_q_value_t input_at(const hyst_q_model_t* model, const uint32_t distance)
-{
-    return (hyst_q_value_t)((int64_t)model->input_min + (int64_t)distance);
-}
-
 static span_t span_at(const hyst_q_model_t* model, const uint32_t amplitude)
 {
-    const hyst_q_value_t above = input_at(model, half_range(model) + amplitude);
-    const hyst_q_value_t below = input_at(model, half_range(model) - amplitude);
+    const hyst_q_value_t above = hyst_q_input_above(model, hyst_q_half_range(model) + amplitude);
+    const hyst_q_value_t below = hyst_q_input_above(model, hyst_q_half_range(model) - amplitude);
     const span_t span = {hyst_q_envelope(model, HYST_Q(find_cell)(model, 0, above), above, true),
                          hyst_q_envelope(model, HYST_Q(find_cell)(model, 0, below), below, false)};
     return span;
@@ -52,7 +41,7 @@ static uint32_t least_swing(const hyst_q_model_t* model, const uint32_t radius, 
 /// push it down. A play that the full range does not move gets the middle of its strip there.
 static uint32_t demagnetised(const hyst_q_model_t* model, const uint32_t radius)
 {
-    const uint32_t half = half_range(model);
+    const uint32_t half = hyst_q_half_range(model);
     const span_t full = span_at(model, half);
     if (!swings(full, radius)) {
         return full.bottom / 2 + full.top / 2 + (full.bottom & full.top & 1U);
@@ -74,7 +63,7 @@ static void demagnetise(const hyst_q_model_t* model, hyst_q_state_t* state)
         HYST_Q(stack_play)(model, state, j, w, inner_w);
         w = inner_w;
     }
-    HYST_Q(place)(model, state, input_at(model, half_range(model)));
+    HYST_Q(place)(model, state, hyst_q_input_above(model, hyst_q_half_range(model)));
 }
 
 hyst_q_value_t HYST_Q(reset)(const hyst_q_model_t* model, hyst_q_state_t* state, const hyst_start_t start,

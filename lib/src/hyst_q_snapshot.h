@@ -16,12 +16,9 @@ hyst_status_t HYST_Q(save)(const hyst_q_model_t* model, const hyst_q_state_t* st
     if (status != HYST_STATUS_OK) {
         return status;
     }
-    snapshot[0] = (hyst_q_word_t)((uint32_t)state->input - (uint32_t)model->input_min);
-    uint32_t j = 0;
-    for (uint32_t i = state->num_segments; i-- > 0;) {
-        for (; j < state->segment[i].end; ++j) {
-            snapshot[j + 1] = (hyst_q_word_t)hyst_q_play(model, &state->segment[i], j);
-        }
+    uint32_t segment = state->num_segments - 1;
+    for (uint32_t i = 0; i <= model->num_plays; ++i) {
+        snapshot[i] = (hyst_q_word_t)hyst_q_saved_number(model, state, i, &segment);
     }
     return HYST_STATUS_OK;
 }
@@ -37,26 +34,43 @@ static bool is_in_reach(const hyst_q_model_t* model, const uint64_t ascending, c
     return (uint64_t)w + radius >= ascending && w <= descending + radius && w >= low && w <= high;
 }
 
-/// Whether the model can have plays in states w after input v.
-static bool is_possible(const hyst_q_model_t* model, const hyst_q_value_t v, const hyst_q_word_t* w)
+/// Whether the model can have plays in the saved states after input v.
+static bool is_possible(const hyst_q_model_t* model, const hyst_q_value_t v, const hyst_q_numbers_t* saved)
 {
     const uint32_t cell = HYST_Q(find_cell)(model, 0, v);
     const uint32_t ascending = hyst_q_envelope(model, cell, v, true);
     const uint32_t descending = hyst_q_envelope(model, cell, v, false);
+    uint32_t inner_w = 0;
     for (uint32_t j = 0; j < model->num_plays; ++j) {
         const uint32_t radius = model->radius[j];
-        if (!is_in_reach(model, ascending, descending, radius, w[j])) {
+        const uint32_t w = hyst_q_number(saved, j + 1);
+        if (!is_in_reach(model, ascending, descending, radius, w)) {
             return false;
         }
-        if (j > 0) {
-            const uint32_t apart =
-                w[j] < w[j - 1] ? (uint32_t)(w[j - 1] - w[j]) : (uint32_t)(w[j] - w[j - 1]);
-            if (apart > radius - model->radius[j - 1]) {
-                return false;
-            }
+        if (j > 0 && (w < inner_w ? inner_w - w : w - inner_w) > radius - model->radius[j - 1]) {
+            return false;
         }
+        inner_w = w;
     }
     return true;
+}
+
+hyst_status_t HYST_Q(restore_numbers)(const hyst_q_model_t* model, hyst_q_state_t* state,
+                                      const hyst_q_numbers_t* saved)
+{
+    const uint32_t distance = hyst_q_number(saved, 0);
+    if (distance > (uint32_t)model->input_max - (uint32_t)model->input_min) {
+        return HYST_STATUS_SNAPSHOT;
+    }
+    const hyst_q_value_t input = hyst_q_input_above(model, distance);
+    if (!is_possible(model, input, saved)) {
+        return HYST_STATUS_SNAPSHOT;
+    }
+    for (uint32_t j = model->num_plays; j-- > 0;) {
+        HYST_Q(stack_play)(model, state, j, hyst_q_number(saved, j + 1), hyst_q_number(saved, j));
+    }
+    HYST_Q(place)(model, state, input);
+    return HYST_STATUS_OK;
 }
 
 hyst_status_t HYST_Q(restore)(const hyst_q_model_t* model, hyst_q_state_t* state,
@@ -66,16 +80,6 @@ hyst_status_t HYST_Q(restore)(const hyst_q_model_t* model, hyst_q_state_t* state
     if (status != HYST_STATUS_OK) {
         return status;
     }
-    if (snapshot[0] > (uint32_t)model->input_max - (uint32_t)model->input_min) {
-        return HYST_STATUS_SNAPSHOT;
-    }
-    const hyst_q_value_t input = (hyst_q_value_t)((int64_t)model->input_min + (int64_t)snapshot[0]);
-    if (!is_possible(model, input, &snapshot[1])) {
-        return HYST_STATUS_SNAPSHOT;
-    }
-    for (uint32_t j = model->num_plays; j-- > 0;) {
-        HYST_Q(stack_play)(model, state, j, snapshot[j + 1], snapshot[j]);
-    }
-    HYST_Q(place)(model, state, input);
-    return HYST_STATUS_OK;
+    const hyst_q_numbers_t saved = {snapshot, NULL};
+    return HYST_Q(restore_numbers)(model, state, &saved);
 }

@@ -183,11 +183,91 @@ static void returns_to_an_output_it_can_give(void)
     }
 }
 
+static uint32_t word_max(const q_model_t* q)
+{
+    return UINT32_MAX >> (32U - (unsigned)q->quantized.bits);
+}
+
+/// The slope of a straight curve over a cell of this (shifted) width, as quantize rounds it.
+static uint32_t slope_of(const q_model_t* q, uint32_t low, uint32_t high, uint32_t width)
+{
+    return (uint32_t)((((uint64_t)(high - low) << (unsigned)q->quantized.bits) + width - 1) / width);
+}
+
+/// Makes one cell from knot `low` to knot `high`.
+static void join(const q_model_t* q, hyst_q31_knot_t* low, const hyst_q31_knot_t* high)
+{
+    uint32_t width = (uint32_t)high->input - (uint32_t)low->input;
+    low->shift = 0;
+    while (width <= word_max(q) / 2) {
+        width *= 2;
+        ++low->shift;
+    }
+    low->ascending_slope = slope_of(q, low->ascending, high->ascending, width);
+    low->descending_slope = slope_of(q, low->descending, high->descending, width);
+    low->nonhysteretic_slope = slope_of(q, low->nonhysteretic, high->nonhysteretic, width);
+}
+
+static bool may_join(const q_model_t* q, const hyst_q31_knot_t* low, const hyst_q31_knot_t* high)
+{
+    const uint32_t most = word_max(q) / 2 - 4;
+    return high->ascending - low->ascending <= most && high->descending - low->descending <= most &&
+           high->nonhysteretic - low->nonhysteretic <= most;
+}
+
+/// Joins the cells of a classical model, whose curves are straight, to the fewest whose slopes fit in a word.
+static void join_cells(q_model_t* q)
+{
+    hyst_q31_model_t* model = &q->quantized.model;
+    hyst_q31_knot_t* knot = q->quantized.knot;
+    const hyst_q31_knot_t last = knot[model->num_knots - 1];
+    uint32_t kept = 0;
+    for (uint32_t k = 1; k < model->num_knots; ++k) {
+        const hyst_q31_knot_t next = k + 1 < model->num_knots ? knot[k + 1] : last;
+        if (k + 1 == model->num_knots || !may_join(q, &knot[kept], &next)) {
+            join(q, &knot[kept], &knot[k]);
+            knot[++kept] = knot[k];
+        }
+    }
+    model->num_knots = kept + 1;
+    if (q->quantized.bits == QUANTIZED_Q15) {
+        narrowed_free(&q->narrowed);
+        q->narrowed = narrowed_new(&q->quantized);
+    }
+    TEST_ASSERT_EQUAL(HYST_STATUS_OK, q_init(q, model->num_plays));
+    q_reference_start(q, HYST_START_NEGATIVE_SATURATION);
+}
+
+/// In a large cell a line rises by more than the inverse's arithmetic on lines holds.
+static void holds_in_large_cells(void)
+{
+    random_t random = random_new(4);
+    size_t num_joined = 0;
+    for (int i = 0; i < 100; ++i) {
+        model_t model = random_classical_model(&random);
+        q_model_t q = q_new(&model, i % 2 == 0 ? QUANTIZED_Q31 : QUANTIZED_Q15, 1e-3);
+        const uint32_t num_knots = q.quantized.model.num_knots;
+        join_cells(&q);
+        num_joined += num_knots - q.quantized.model.num_knots;
+        for (size_t k = 0; k < 40; ++k) {
+            if (k % 4 == 0) {
+                wander(&random, &q);
+            }
+            const int32_t wanted = some_wanted(&random, &q, q_reachable(&q));
+            TEST_ASSERT_EQUAL_INT32(best_by_halving(&q, wanted), q_inverse(&q, wanted).input);
+        }
+        q_free(&q);
+        model_free(&model);
+    }
+    TEST_ASSERT_TRUE(num_joined > 0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(equals_exhaustive_search);
     RUN_TEST(equals_halving);
     RUN_TEST(returns_to_an_output_it_can_give);
+    RUN_TEST(holds_in_large_cells);
     return UNITY_END();
 }

@@ -122,8 +122,9 @@ int32_t hyst_q31_step(const hyst_q31_model_t* model, hyst_q31_state_t* state, in
 
 /// Looks, and changes nothing: the input whose output from the present memory is nearest to `wanted`. Of two
 /// outputs equally near, the one nearer to the present output; of all inputs that give it, the one nearest to
-/// the present input. To commit it, pass the input that was really applied to hyst_q31_step. Time O((log
-/// num_knots + log num_plays + 64) log num_plays): halvings and one division, no iteration to a tolerance.
+/// the present input. To commit it, pass the input that was really applied to hyst_q31_step. Time O(log
+/// num_knots + 64 log num_plays): a line is solved and corrected by steps of bounded number, no iteration to
+/// a tolerance; outputs that are near need no search.
 hyst_q31_inverse_t hyst_q31_inverse(const hyst_q31_model_t* model, const hyst_q31_state_t* state,
                                     int32_t wanted);
 

@@ -19,9 +19,7 @@ static inline reach_t reach_of(const SCALAR(model_t) * model, const SCALAR(state
 static inline void step_channels(const SCALAR(model_t) * model, SCALAR(state_t) * states,
                                  const sample_t* inputs, sample_t* outputs, const size_t count)
 {
-    for (size_t i = 0; i < count; ++i) {
-        outputs[i] = SCALAR(step)(model, &states[i], inputs[i]);
-    }
+    SCALAR(bank_step_shared)(model, states, inputs, outputs, count);
 }
 
 #endif

@@ -3,6 +3,7 @@
 #define HYST_COST_SCALAR_H
 
 #include "hyst/hyst_q15.h"
+#include "hyst/hyst_q15_bank.h"
 
 #define SCALAR(name) hyst_q15_##name
 

@@ -3,6 +3,7 @@
 #define HYST_COST_SCALAR_H
 
 #include "hyst/hyst_q31.h"
+#include "hyst/hyst_q31_bank.h"
 
 #define SCALAR(name) hyst_q31_##name
 
