@@ -20,6 +20,9 @@ enum { LAST_EVALUATIONS = 20 };
 /// Samples by which a long record is judged, and those that the verdict's parameters are then fitted to.
 static const size_t most_judged = 12000;
 static const size_t most_fitted = 1000000;
+/// What a body's own misfit leaves is alike from sample to sample: a record weighs against the calibration as this many
+/// independent samples.
+static const double independent_pieces = 150;
 
 typedef struct {
     const diagnose_options_t* options;
@@ -189,7 +192,8 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
         w->run.correction = w->body.correction;
     }
     w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried, &w->body.nuisance,
-                     fmax(w->body.misfit * w->body.misfit, DBL_MIN));
+                     fmax(w->body.misfit * w->body.misfit, DBL_MIN) *
+                         fmax((double)w->run.num_samples / independent_pieces, 1));
     const hypothesis_t none = {0};
     block_errors(w, &none, w->plain_error);
     w->plain_rmse = sqrt(sum_of(w->plain_error, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
@@ -204,7 +208,7 @@ static void find_grid(work_t* w, double noise)
         bench != NULL ? grid_step_of(bench->output, bench->num_samples) : (grid_step_t){0};
     if (found.step > noise && known.step < 0.5 * found.step) {
         w->grid = found;
-        w->scale.floor += found.step * found.step / 12;
+        w->gap.dead_zone = 0.5 * found.step;
     }
 }
 
@@ -229,22 +233,24 @@ static void add_grid(work_t* w)
 static void search(work_t* w, double noise)
 {
     candidates_t* c = &w->candidates;
+    find_grid(w, noise);
     *c = candidates_new(&w->gap, w->options->calibration,
                         w->options->num_threads > 0 ? w->options->num_threads : parallel_processors());
-    w->scale = scale_new(noise * noise, w->body.misfit * w->body.misfit, correction_of(w),
-                         hypothesis_mean_square(&c->hypothesis[0]));
+    const double correction = correction_of(w);
+    w->scale = scale_new(
+        noise * noise, w->body.misfit * w->body.misfit, correction,
+        fmax(hypothesis_mean_square(&c->hypothesis[0]), w->plain_rmse * w->plain_rmse - correction));
     candidates_add_singles(c);
     double least = HUGE_VAL;
     for (size_t i = 0; i < c->count; i++) {
         least = fmin(least, hypothesis_mean_square(&c->hypothesis[i]));
     }
     scale_lower(&w->scale, least);
-    find_grid(w, noise);
     const double worth = 0.7 * w->scale.grain + w->scale.floor;
     if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->scale, c)]) > worth) {
         candidates_add_pairs(c);
         const hypothesis_t* best = &c->hypothesis[verdict_best(&w->scale, c)];
-        if (best->num_uses == 2 && hypothesis_mean_square(best) > worth) {
+        if (best->num_uses == 2 && !(w->grid.step > 0) && hypothesis_mean_square(best) > worth) {
             candidates_add_triples(c);
         }
     }

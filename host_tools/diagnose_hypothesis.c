@@ -211,7 +211,8 @@ static void residual_of(search_t* s, double* residual)
     const size_t n = s->gap->run->num_samples;
     simulate(s);
     for (size_t t = 0; t < n; t++) {
-        residual[t] = s->simulated[t] - s->gap->output[t];
+        const double error = s->simulated[t] - s->gap->output[t];
+        residual[t] = error - fmin(fmax(error, -s->gap->dead_zone), s->gap->dead_zone);
     }
     if (s->filter->nuisance->count > 0) {
         // The nuisance is found on what is fitted and taken out everywhere.

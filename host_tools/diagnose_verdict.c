@@ -13,7 +13,7 @@ static const double part_to_gain = 0.4;
 static const double floor_grain = 0.2;
 static const double gap_grain = 4e-3;
 /// How much a body that stood in for the plays may itself be off, in parts of its correction's energy.
-static const double correction_doubt = 0.06;
+static const double correction_doubt = 0.05;
 /// Where one effect alone leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 2;
 /// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are more

@@ -68,4 +68,5 @@ const effect_t effect_periodic_disturbance = {
     .limits = limits,
     .apply = apply,
     .invert = invert,
+    .covers = 0.5, // on periodic work its harmonics follow what the body itself does beside the model
 };

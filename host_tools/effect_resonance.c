@@ -89,6 +89,12 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     series_invert(run, parameter, apply_series, lead_series, series);
 }
 
+/// Past this damping nothing rings: a step's overshoot is below a tenth, as a lag's.
+static bool is_lag(const double* parameter)
+{
+    return parameter[DAMPING] > 0.6;
+}
+
 const effect_t effect_resonance = {
     .name = "resonance",
     .stage = EFFECT_SENSOR,
@@ -96,6 +102,7 @@ const effect_t effect_resonance = {
     .num_parameters = COUNT_OF(parameters),
     .parameter = parameters,
     .limits = limits,
+    .is_another = is_lag,
     .apply = apply,
     .invert = invert,
 };

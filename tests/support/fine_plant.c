@@ -140,6 +140,26 @@ static double plays(plant_t* plant, double command, double temperature)
     return plant->scaled;
 }
 
+/// The model's output between its two saturations.
+static void output_range(const plant_t* plant, double* middle, double* half)
+{
+    const curve_t* d = &plant->model->nonhysteretic;
+    const double low = d->slope * plant->model->input_min + d->shift + plant->middle - plant->half;
+    const double high = d->slope * plant->model->input_max + d->shift + plant->middle + plant->half;
+    *middle = (low + high) / 2;
+    *half = (high - low) / 2;
+}
+
+static double worn(const plant_t* plant, double y)
+{
+    double middle;
+    double half;
+    output_range(plant, &middle, &half);
+    const double pivot = middle + plant->p[1] * half;
+    const double span = plant->model->input_max - plant->model->input_min;
+    return pivot + (y - pivot) / exp(plant->p[0] * plant->travel / span);
+}
+
 static double body(plant_t* plant, double y, double temperature)
 {
     if (!plant->started) {
@@ -154,6 +174,9 @@ static double body(plant_t* plant, double y, double temperature)
     }
     if (is(plant, "exogenous")) {
         return y * (1 + p[0] * temperature) + p[1] * temperature;
+    }
+    if (by(plant, "wear", "response")) {
+        return worn(plant, y);
     }
     if (!is(plant, "creep")) {
         return y;
@@ -220,13 +243,23 @@ static double drift(plant_t* plant, double time)
 
 static double curved(const plant_t* plant, double y)
 {
-    const model_t* model = plant->model;
-    const double low = model->nonhysteretic.slope * model->input_min + model->nonhysteretic.shift +
-                       plant->middle - plant->half;
-    const double high = model->nonhysteretic.slope * model->input_max + model->nonhysteretic.shift +
-                        plant->middle + plant->half;
-    const double z = (2 * y - low - high) / (high - low);
-    return y + (high - low) / 2 * (plant->p[0] * z * z + plant->p[1] * z * z * z);
+    const double* p = plant->p;
+    double middle;
+    double half;
+    output_range(plant, &middle, &half);
+    const double z = (y - middle) / half;
+    return y + half * (p[2] + p[3] * z + p[0] * z * z + p[1] * z * z * z);
+}
+
+static double hum(const plant_t* plant, double time)
+{
+    const double* p = plant->p;
+    double sum = 0;
+    for (int h = 1; h <= 3; ++h) {
+        const double angle = 2 * acos(-1.0) * h * p[0] * time;
+        sum += p[2 * h - 1] * sin(angle) + p[2 * h] * cos(angle);
+    }
+    return sum;
 }
 
 static double sensor(plant_t* plant, double y, double time)
@@ -256,8 +289,7 @@ static double sensor(plant_t* plant, double y, double time)
         return y + drift(plant, time);
     }
     if (is(plant, "periodic_disturbance")) {
-        const double angle = 2 * acos(-1.0) * p[0] * time;
-        return y + p[1] * sin(angle) + p[2] * cos(angle);
+        return y + hum(plant, time);
     }
     if (is(plant, "quantization")) {
         return p[1] + p[0] * floor((y - p[1]) / p[0] + 0.5);

@@ -118,7 +118,7 @@ static void test_a_lag_is_judged_as_by_all_samples(void)
     // The shrink on all samples, which the stretches stand for: the truth leaves the noise alone.
     double sum = 0;
     for (size_t t = 0; t < SAMPLES; t++) {
-        sum += pow(output[t] - diagnosis.hypothesis[0].predicted[t], 2);
+        sum += pow(output[t] - diagnosis.before[t], 2);
     }
     const double realised = 1 - noise / sqrt(sum / SAMPLES);
     const double half_width = 0.5 * (diagnosis.cause[0].shrink_high - diagnosis.cause[0].shrink_low);
