@@ -215,7 +215,7 @@ sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t n
     double most = -1;
     const size_t lines = num_samples / 2 < MOST_LINES ? num_samples / 2 : MOST_LINES;
     for (size_t k = 0; k < lines; k++) {
-        sinusoid_t line = {.frequency = (2 + 0.5 * (double)k) / duration};
+        sinusoid_t line = {.frequency = (4 + 0.5 * (double)k) / duration};
         const double energy = fit_sinusoid(time, series, num_samples, mean, &line);
         if (energy > most) {
             most = energy;

@@ -14,7 +14,7 @@ double white_noise(const double* signal, size_t num_samples);
 typedef struct {
     double frequency, sine, cosine;
 } sinusoid_t;
-/// The strongest line of a series' least-squares spectrum, between two periods a record and a quarter of the
+/// The strongest line of a series' least-squares spectrum, between four periods a record and a quarter of the
 /// sample rate.
 sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t num_samples);
 

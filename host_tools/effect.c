@@ -26,6 +26,7 @@ static const effect_t* const catalogue[] = {
     &effect_output_nonlinearity,
     &effect_drift_linear,
     &effect_drift_spline,
+    &effect_drift_fine_spline,
     &effect_periodic_disturbance,
     &effect_quantization,
     &effect_exogenous,

@@ -26,6 +26,7 @@ extern const effect_t effect_output_saturation;
 extern const effect_t effect_output_nonlinearity;
 extern const effect_t effect_drift_linear;
 extern const effect_t effect_drift_spline;
+extern const effect_t effect_drift_fine_spline;
 extern const effect_t effect_periodic_disturbance;
 extern const effect_t effect_quantization;
 extern const effect_t effect_exogenous;

@@ -1,20 +1,22 @@
 /// drift: slow additive change over time, unrelated to the input (a sensor warming up, a creeping mount).
 ///     linear:  y' = y + slope (t - t0)
-///     spline:  y' = y + s(t), s the natural cubic spline through 0 at the record's start and node_k at k/6
-///     of its
+///     spline:  y' = y + s(t), s the natural cubic spline through 0 at the record's start and node_k at k/6 of its
 ///              duration
+///     fine_spline: likewise at k/10
 /// slope [output/s], node_k [output]. Holds for this record alone. Zero at the record's start: a constant is
 /// an offset. Spline: C. de Boor, A Practical Guide to Splines, ch. IV.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
-enum { NODES = 6 };
+enum { NODES = 6, FINE_NODES = 10 };
 
 static const effect_parameter_t slope_parameter[] = {{"slope", "output/s", ANY_NUMBER}};
 
-static const effect_parameter_t node_parameters[NODES] = {
+static const effect_parameter_t node_parameters[FINE_NODES] = {
     {"node_1", "output", ANY_NUMBER}, {"node_2", "output", ANY_NUMBER}, {"node_3", "output", ANY_NUMBER},
     {"node_4", "output", ANY_NUMBER}, {"node_5", "output", ANY_NUMBER}, {"node_6", "output", ANY_NUMBER},
+    {"node_7", "output", ANY_NUMBER}, {"node_8", "output", ANY_NUMBER}, {"node_9", "output", ANY_NUMBER},
+    {"node_10", "output", ANY_NUMBER},
 };
 
 static void slope_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -52,37 +54,37 @@ static void invert_slope(const effect_run_t* run, const double* parameter, const
     add_slope(run, -parameter[0], series);
 }
 
-/// The second derivatives at knots 0 ... NODES one apart, 0 at both ends: m[k-1] + 4 m[k] + m[k+1] = 6
+/// The second derivatives at knots 0 ... nodes one apart, 0 at both ends: m[k-1] + 4 m[k] + m[k+1] = 6
 /// (second difference), by elimination.
-static void curvatures(const double* value, double* m)
+static void curvatures(const double* value, size_t nodes, double* m)
 {
-    double pivot[NODES + 1] = {0};
-    for (size_t k = 0; k <= NODES; ++k) {
+    double pivot[FINE_NODES + 1] = {0};
+    for (size_t k = 0; k <= nodes; ++k) {
         m[k] = 0.0;
     }
-    for (size_t k = 1; k < NODES; ++k) {
+    for (size_t k = 1; k < nodes; ++k) {
         const double before = k > 1 ? 1.0 / pivot[k - 1] : 0.0;
         pivot[k] = 4.0 - before;
         m[k] = 6.0 * (value[k - 1] - 2.0 * value[k] + value[k + 1]) - before * m[k - 1];
     }
-    for (size_t k = NODES - 1; k >= 1; --k) {
+    for (size_t k = nodes - 1; k >= 1; --k) {
         m[k] = (m[k] - m[k + 1]) / pivot[k];
     }
 }
 
-static void add_spline(const effect_run_t* run, const double* node, double sign, double* series)
+static void add_spline(const effect_run_t* run, const double* node, size_t nodes, double sign, double* series)
 {
-    double value[NODES + 1] = {0};
-    for (size_t k = 0; k < NODES; ++k) {
+    double value[FINE_NODES + 1] = {0};
+    for (size_t k = 0; k < nodes; ++k) {
         value[k + 1] = sign * node[k];
     }
-    double m[NODES + 1];
-    curvatures(value, m);
-    const double spacing = (run->time[run->num_samples - 1] - run->time[0]) / NODES;
+    double m[FINE_NODES + 1];
+    curvatures(value, nodes, m);
+    const double spacing = (run->time[run->num_samples - 1] - run->time[0]) / (double)nodes;
     size_t cell = 0;
     for (size_t i = 1; i < run->num_samples; ++i) {
         const double place = (run->time[i] - run->time[0]) / spacing;
-        while (cell + 1 < NODES && place > (double)(cell + 1)) {
+        while (cell + 1 < nodes && place > (double)(cell + 1)) {
             cell += 1;
         }
         const double right = place - (double)cell;
@@ -97,14 +99,28 @@ static void apply_spline(const effect_run_t* run, const double* parameter, const
                          double* series)
 {
     (void)column;
-    add_spline(run, parameter, 1.0, series);
+    add_spline(run, parameter, NODES, 1.0, series);
 }
 
 static void invert_spline(const effect_run_t* run, const double* parameter, const double* column,
                           double* series)
 {
     (void)column;
-    add_spline(run, parameter, -1.0, series);
+    add_spline(run, parameter, NODES, -1.0, series);
+}
+
+static void apply_fine_spline(const effect_run_t* run, const double* parameter, const double* column,
+                              double* series)
+{
+    (void)column;
+    add_spline(run, parameter, FINE_NODES, 1.0, series);
+}
+
+static void invert_fine_spline(const effect_run_t* run, const double* parameter, const double* column,
+                               double* series)
+{
+    (void)column;
+    add_spline(run, parameter, FINE_NODES, -1.0, series);
 }
 
 const effect_t effect_drift_linear = {
@@ -127,4 +143,16 @@ const effect_t effect_drift_spline = {
     .limits = node_limits,
     .apply = apply_spline,
     .invert = invert_spline,
+};
+
+const effect_t effect_drift_fine_spline = {
+    .name = "drift",
+    .mechanism = "fine_spline",
+    .stage = EFFECT_SENSOR,
+    .num_parameters = FINE_NODES,
+    .parameter = node_parameters,
+    .limits = node_limits,
+    .apply = apply_fine_spline,
+    .invert = invert_fine_spline,
+    .covers = 0.4, // ten nodes follow slow parts of other effects
 };

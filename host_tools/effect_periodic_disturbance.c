@@ -1,6 +1,6 @@
 /// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
 ///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t), h = 1, 2, 3
-/// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time. frequency > 0 [Hz], fitted between one period in the record and half the sample
+/// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time. frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and half the sample
 /// rate; amplitudes [output units].
 #include "effect_catalogue.h"
 #include "effect_limits.h"
@@ -28,7 +28,7 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
         *result = limits_linear(-span, span, 0.0, start, -start, 0.0);
         return;
     }
-    const double low = 1.0 / run->duration;
+    const double low = 4.0 / run->duration;
     const double high = fmax(0.5 / run->sample_time, 2.0 * low);
     const double middle = sqrt(low * high);
     *result = limits_logarithmic(low, high, middle, middle, sqrt(low * middle), sqrt(middle * high));
