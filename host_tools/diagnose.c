@@ -20,8 +20,8 @@ enum { LAST_EVALUATIONS = 20 };
 /// Samples by which a long record is judged, and those that the verdict's parameters are then fitted to.
 static const size_t most_judged = 12000;
 static const size_t most_fitted = 1000000;
-/// What a body's own misfit leaves is alike from sample to sample: a record weighs against the calibration as this many
-/// independent samples.
+/// What a body's own misfit leaves is alike from sample to sample: a record weighs against the calibration as
+/// this many independent samples.
 static const double independent_pieces = 150;
 
 typedef struct {
@@ -34,7 +34,7 @@ typedef struct {
     gap_t gap;
     candidates_t candidates;
     scale_t scale;
-    grid_step_t grid; ///< that the output lies on and the calibration's does not
+    grid_step_t grid;                      ///< that the output lies on and the calibration's does not
     double plain_error[HYPOTHESIS_BLOCKS]; ///< of the model alone: sum of squares of each block
     double plain_rmse;
 } work_t;
@@ -73,8 +73,8 @@ static void block_errors(const work_t* w, const hypothesis_t* h, double* error)
     free(predicted);
 }
 
-/// Shrink with its 90 % interval over resampled stretches. Where the model's own plays were judged, what is left was
-/// held out; another body's parameters are put into the model that the user has.
+/// Shrink with its 90 % interval over resampled stretches. Where the model's own plays were judged, what is
+/// left was held out; another body's parameters are put into the model that the user has.
 static void set_shrink(const work_t* w, cause_t* cause)
 {
     double left[HYPOTHESIS_BLOCKS];
@@ -191,7 +191,8 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
         w->run.body = w->body.is_duhem ? &w->body.duhem : NULL;
         w->run.correction = w->body.correction;
     }
-    w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried, &w->body.nuisance,
+    w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried,
+                     &w->body.nuisance,
                      fmax(w->body.misfit * w->body.misfit, DBL_MIN) *
                          fmax((double)w->run.num_samples / independent_pieces, 1));
     const hypothesis_t none = {0};
@@ -199,7 +200,8 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     w->plain_rmse = sqrt(sum_of(w->plain_error, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
 }
 
-/// A converter's steps that can be told from noise and that the bench did not have are a fact, whatever else acts.
+/// A converter's steps that can be told from noise and that the bench did not have are a fact, whatever else
+/// acts.
 static void find_grid(work_t* w, double noise)
 {
     const record_t* bench = w->options->calibration;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Of the model's squared misfit, what a Duhem body may leave: it has more free numbers, and where a plant is of
-/// Preisach's kind it fits the loops it has seen and no others.
+/// Of the model's squared misfit, what a Duhem body may leave: it has more free numbers, and where a plant is
+/// of Preisach's kind it fits the loops it has seen and no others.
 static const double clearly_less = 0.8;
 static const double no_more = 1.05;
 
@@ -34,8 +34,8 @@ static bool is_near(const model_t* model, start_t start, const duhem_t* duhem, c
     return with <= no_more * without;
 }
 
-/// How many neighbouring samples of a residual count as one independent: 1 + 2 sum of its autocorrelation, to where
-/// that has died out.
+/// How many neighbouring samples of a residual count as one independent: 1 + 2 sum of its autocorrelation, to
+/// where that has died out.
 static double correlation_of(const double* residual, size_t n)
 {
     double energy = 0;
@@ -92,8 +92,8 @@ static void everett_rows(void* context, size_t begin, size_t end, double* deriva
 /// Directions that add less than this to the record's squared error, in squared misfits, say nothing.
 static const double least_energy = 1;
 
-/// Where the calibration says nothing, a Preisach body differs from the model by no more than this many times what it
-/// differs by on the calibration.
+/// Where the calibration says nothing, a Preisach body differs from the model by no more than this many times
+/// what it differs by on the calibration.
 static const double few = 3;
 
 static void scale(double* precision, size_t numbers, double factor)
@@ -111,8 +111,10 @@ static void try_duhem(body_t* body, const model_t* model, start_t start, const r
     double* precision = xmalloc((size_t)DUHEM_FREE * DUHEM_FREE * sizeof *precision);
     double* residual = xmalloc(n * sizeof *residual);
     double left = HUGE_VAL;
-    body->duhem = duhem_fit(model, start, calibration->input, calibration->output, n, body->noise, &left, precision);
-    if (left * left < clearly_less * body->misfit * body->misfit && is_near(model, start, &body->duhem, record)) {
+    body->duhem =
+        duhem_fit(model, start, calibration->input, calibration->output, n, body->noise, &left, precision);
+    if (left * left < clearly_less * body->misfit * body->misfit &&
+        is_near(model, start, &body->duhem, record)) {
         body->is_duhem = true;
         body->misfit = left;
         duhem_run(&body->duhem, model, start, 0, calibration->input, n, residual);
@@ -130,7 +132,8 @@ static void try_duhem(body_t* body, const model_t* model, start_t start, const r
 }
 
 /// Sets `correction`, `misfit` and `nuisance`.
-static void add_everett(body_t* body, const model_t* model, const record_t* calibration, const record_t* record)
+static void add_everett(body_t* body, const model_t* model, const record_t* calibration,
+                        const record_t* record)
 {
     const size_t n = calibration->num_samples;
     double* precision = xmalloc((size_t)EVERETT_FREE * EVERETT_FREE * sizeof *precision);

@@ -9,8 +9,8 @@ typedef struct {
     double offset; ///< one of the levels
 } grid_step_t;
 
-/// The grid that all values lie on, when there are far fewer levels than values and most neighbouring levels are one
-/// step apart, give or take a quarter (converters' codes are of uneven width).
+/// The grid that all values lie on, when there are far fewer levels than values and most neighbouring levels
+/// are one step apart, give or take a quarter (converters' codes are of uneven width).
 grid_step_t grid_step_of(const double* values, size_t num_values);
 
 #endif

@@ -292,8 +292,8 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
     search_free(&s);
 }
 
-/// The best of evenly spread values of a hypothesis's only parameter: thresholds and delays give no gradient where
-/// they do not act.
+/// The best of evenly spread values of a hypothesis's only parameter: thresholds and delays give no gradient
+/// where they do not act.
 static hypothesis_t scan(const hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
 {
     enum { POINTS = 24 };
@@ -345,7 +345,8 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
 {
     search_t s = search_new(hypothesis, gap, -1);
-    hypothesis->predicted = xrealloc(hypothesis->predicted, num_residuals(&s) * sizeof *hypothesis->predicted);
+    hypothesis->predicted =
+        xrealloc(hypothesis->predicted, num_residuals(&s) * sizeof *hypothesis->predicted);
     residual_of(&s, hypothesis->predicted);
     for (size_t t = 0; t < gap->run->num_samples; t++) {
         hypothesis->predicted[t] += gap->output[t];

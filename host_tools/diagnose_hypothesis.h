@@ -19,12 +19,12 @@ typedef struct {
     size_t num_judged;    ///< samples that are not carried
     size_t
         block_end[HYPOTHESIS_BLOCKS]; ///< contiguous stretches; block b belongs to fold b % HYPOTHESIS_FOLDS
-    double dead_zone; ///< errors up to it are none: half a step of the output's converter
+    double dead_zone;                 ///< errors up to it are none: half a step of the output's converter
     nuisance_filter_t filter[HYPOTHESIS_FOLDS + 1]; ///< with each fold held out, and with none
 } gap_t;
 
-/// carried: as in gap_t; the blocks hold equally many of the other samples. nuisance: what the body leaves open (no
-/// directions: nothing). variance: of what the output holds besides.
+/// carried: as in gap_t; the blocks hold equally many of the other samples. nuisance: what the body leaves
+/// open (no directions: nothing). variance: of what the output holds besides.
 gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
               const bool* carried, const nuisance_t* nuisance, double variance);
 void gap_free(gap_t* gap);
@@ -38,8 +38,8 @@ typedef struct {
     double held_out_rmse; ///< each fold predicted by a fit to the others, the memory carried over
     bool is_another;      ///< an effect's parameters make it another effect
     double block_error[HYPOTHESIS_BLOCKS]; ///< held-out sum of squares of each block
-    double* predicted; ///< [num_samples] by the fit to the whole record, with what the body leaves open chosen for
-                       ///< it; or NULL before it
+    double* predicted; ///< [num_samples] by the fit to the whole record, with what the body leaves open
+                       ///< chosen for it; or NULL before it
 } hypothesis_t;
 
 hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses);
@@ -57,8 +57,8 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
 /// Fills `predicted` for the present parameters.
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap);
-/// Mean square by which it is weighed: with what the body leaves open priced, `fit_rmse` is the record's marginal
-/// likelihood. Infinite for one that is another.
+/// Mean square by which it is weighed: with what the body leaves open priced, `fit_rmse` is the record's
+/// marginal likelihood. Infinite for one that is another.
 double hypothesis_mean_square(const hypothesis_t* hypothesis);
 /// Held-out errors, from the present parameters.
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap);

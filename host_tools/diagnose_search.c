@@ -10,7 +10,6 @@
 enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
 enum { SINGLE_EVALUATIONS = 40, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
 
-
 static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
 {
     hypothesis_t* hypothesis = &c->hypothesis[c->count++];
@@ -162,8 +161,8 @@ static hypothesis_t joined(const hypothesis_t* base, const hypothesis_t* further
     return hypothesis_of(uses, base->num_uses + 1);
 }
 
-/// Briefly: from what each was alone, and with the further effect from its start, since beside the others it may
-/// be another size than alone.
+/// Briefly: from what each was alone, and with the further effect from its start, since beside the others it
+/// may be another size than alone.
 static void try_extension(void* context, size_t index)
 {
     const candidates_t* c = ((const extensions_t*)context)->c;
@@ -219,7 +218,8 @@ void candidates_add_pairs(candidates_t* c)
             pair[count++] = (extension_t){.base = &leader[i], .further = &leader[j]};
         }
     }
-    add_best(c, pair, count, (parallel_progress_t){"diagnose", 0.4, 0.6}, (parallel_progress_t){"diagnose", 0.6, 0.75});
+    add_best(c, pair, count, (parallel_progress_t){"diagnose", 0.4, 0.6},
+             (parallel_progress_t){"diagnose", 0.6, 0.75});
     free(pair);
 }
 
@@ -241,5 +241,6 @@ void candidates_add_triples(candidates_t* c)
             triple[count++] = (extension_t){.base = best, .further = &leader[j]};
         }
     }
-    add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.75, 0.8}, (parallel_progress_t){"diagnose", 0.8, 0.9});
+    add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.75, 0.8},
+             (parallel_progress_t){"diagnose", 0.8, 0.9});
 }

@@ -6,8 +6,8 @@
 #include <string.h>
 
 /// Of what is left above the floor, an effect more must take away at least this part: less than that another
-/// effect's free parameters take from a body's own misfit, or from the first effect's physics being a little other than
-/// the plant's.
+/// effect's free parameters take from a body's own misfit, or from the first effect's physics being a little
+/// other than the plant's.
 static const double part_to_gain = 0.4;
 /// Grain in parts of floor and gap.
 static const double floor_grain = 0.2;
@@ -16,8 +16,8 @@ static const double gap_grain = 4e-3;
 static const double correction_doubt = 0.05;
 /// Where one effect alone leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 2;
-/// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are more
-/// hypotheses the more effects they have.
+/// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are
+/// more hypotheses the more effects they have.
 static const double sharpness = 8;
 static const double prior = 0.3;
 
@@ -63,7 +63,8 @@ size_t verdict_best(const scale_t* scale, const candidates_t* c)
 {
     size_t best = 0;
     for (size_t i = 1; i < c->count; i++) {
-        best = verdict_score(scale, &c->hypothesis[i]) < verdict_score(scale, &c->hypothesis[best]) ? i : best;
+        best =
+            verdict_score(scale, &c->hypothesis[i]) < verdict_score(scale, &c->hypothesis[best]) ? i : best;
     }
     return best;
 }
@@ -142,8 +143,8 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     const double above = above_floor(scale, &c->hypothesis[0]);
     const double left = above > 0 ? above_floor(scale, leader) / above : 0;
     d->structure = structure_left(c->gap, leader);
-    d->is_unknown =
-        above_floor(scale, leader) > 0.5 * scale->floor && (left > 0.4 || (left > 0.15 && d->structure > 0.3));
+    d->is_unknown = above_floor(scale, leader) > 0.5 * scale->floor &&
+                    (left > 0.4 || (left > 0.15 && d->structure > 0.3));
     d->is_none = leader->num_uses == 0 && !d->is_unknown;
     for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
         if (d->cause[k].probability > 0.2 * d->cause[0].probability && !d->is_unknown) {

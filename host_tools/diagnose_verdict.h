@@ -9,19 +9,19 @@
 typedef struct {
     double noise; ///< the sensor's
     double known; ///< what the body left of its calibration, noise included
-    double floor; ///< what no effect has to explain: noise, and what the body is known or expected to do beside the
-                  ///< model on a record like this
+    double floor; ///< what no effect has to explain: noise, and what the body is known or expected to do
+                  ///< beside the model on a record like this
     double grain; ///< differences below it do not count
 } scale_t;
 
-/// misfit: mean square of what the body leaves of its calibration. correction: mean square of what the body differs
-/// from the model by on the record. gap: mean square of what the body leaves of the record.
+/// misfit: mean square of what the body leaves of its calibration. correction: mean square of what the body
+/// differs from the model by on the record. gap: mean square of what the body leaves of the record.
 scale_t scale_new(double noise, double misfit, double correction, double gap);
-/// Lowers the floor to what the record allows. least: the smallest mean square that a hypothesis with at most one effect
-/// leaves.
+/// Lowers the floor to what the record allows. least: the smallest mean square that a hypothesis with at most
+/// one effect leaves.
 void scale_lower(scale_t* scale, double least);
-/// How well a hypothesis stands, the less the better: the logarithm of what it leaves above the floor, and a price for
-/// each effect.
+/// How well a hypothesis stands, the less the better: the logarithm of what it leaves above the floor, and a
+/// price for each effect.
 double verdict_score(const scale_t* scale, const hypothesis_t* hypothesis);
 /// The index of the best.
 size_t verdict_best(const scale_t* scale, const candidates_t* candidates);

@@ -33,12 +33,12 @@ typedef struct {
     const duhem_t* duhem;
     double input; ///< as a part of the range, within it
     double output;
-    double* derivative; ///< [DUHEM_FREE] of the output by the free numbers, or NULL
+    double* derivative;  ///< [DUHEM_FREE] of the output by the free numbers, or NULL
     const double* guide; ///< slopes are taken along the line to this output, not along its own; or NULL
 } duhem_state_t;
 
-/// Before the first sample `first`: negative saturation, or from another past the model's own output at `first`.
-/// derivative: NULL or set to the start's.
+/// Before the first sample `first`: negative saturation, or from another past the model's own output at
+/// `first`. derivative: NULL or set to the start's.
 duhem_state_t duhem_start(const duhem_t* duhem, const model_t* model, start_t start, double first,
                           double* derivative);
 /// Moves to `input` [input units], limited to the range; the output there.

@@ -11,8 +11,8 @@ enum { SERIES = 2, ELSEWHERE = 4000, MOST_ITERATIONS = 30, MOST_TRIALS = 6, MOST
 /// How far the slope may bend from node to node for the cost of an error of the noise's size, in parts of the
 /// steepest.
 static const double free_bend = 0.03;
-/// Weight of an error against the model where the record never was, beside one against the record; the model's own
-/// misfit is its unit.
+/// Weight of an error against the model where the record never was, beside one against the record; the
+/// model's own misfit is its unit.
 static const double trust_in_model = 0.01;
 
 /// A series to follow.
@@ -73,7 +73,8 @@ static double follow(const fit_t* f, const series_t* series, const duhem_t* d, d
     return sum;
 }
 
-/// Three nodes in a row: their second difference joins the cost and, where there are any, the normal equations.
+/// Three nodes in a row: their second difference joins the cost and, where there are any, the normal
+/// equations.
 static double stiffen(const fit_t* f, duhem_t* d, size_t first, size_t stride, double* gram, double* right)
 {
     const size_t at[] = {first, first + stride, first + 2 * stride};

@@ -4,10 +4,10 @@
 
 #include "duhem.h"
 
-/// Least squares of the simulated output, smooth where the record does not say more, and where it never was like
-/// the model. noise: RMS of the output's noise, > 0. *rmse: what it leaves. precision[DUHEM_FREE][DUHEM_FREE]: upper
-/// triangle by columns of the free numbers' inverse covariance, as if every sample's error were independent and of
-/// the noise's size.
+/// Least squares of the simulated output, smooth where the record does not say more, and where it never was
+/// like the model. noise: RMS of the output's noise, > 0. *rmse: what it leaves.
+/// precision[DUHEM_FREE][DUHEM_FREE]: upper triangle by columns of the free numbers' inverse covariance, as
+/// if every sample's error were independent and of the noise's size.
 duhem_t duhem_fit(const model_t* model, start_t start, const double* input, const double* output,
                   size_t num_samples, double noise, double* rmse, double* precision);
 

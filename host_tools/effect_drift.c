@@ -1,6 +1,7 @@
 /// drift: slow additive change over time, unrelated to the input (a sensor warming up, a creeping mount).
 ///     linear:  y' = y + slope (t - t0)
-///     spline:  y' = y + s(t), s the natural cubic spline through 0 at the record's start and node_k at k/6 of its
+///     spline:  y' = y + s(t), s the natural cubic spline through 0 at the record's start and node_k at k/6
+///     of its
 ///              duration
 ///     fine_spline: likewise at k/10
 /// slope [output/s], node_k [output]. Holds for this record alone. Zero at the record's start: a constant is
@@ -13,9 +14,9 @@ enum { NODES = 6, FINE_NODES = 10 };
 static const effect_parameter_t slope_parameter[] = {{"slope", "output/s", ANY_NUMBER}};
 
 static const effect_parameter_t node_parameters[FINE_NODES] = {
-    {"node_1", "output", ANY_NUMBER}, {"node_2", "output", ANY_NUMBER}, {"node_3", "output", ANY_NUMBER},
-    {"node_4", "output", ANY_NUMBER}, {"node_5", "output", ANY_NUMBER}, {"node_6", "output", ANY_NUMBER},
-    {"node_7", "output", ANY_NUMBER}, {"node_8", "output", ANY_NUMBER}, {"node_9", "output", ANY_NUMBER},
+    {"node_1", "output", ANY_NUMBER},  {"node_2", "output", ANY_NUMBER}, {"node_3", "output", ANY_NUMBER},
+    {"node_4", "output", ANY_NUMBER},  {"node_5", "output", ANY_NUMBER}, {"node_6", "output", ANY_NUMBER},
+    {"node_7", "output", ANY_NUMBER},  {"node_8", "output", ANY_NUMBER}, {"node_9", "output", ANY_NUMBER},
     {"node_10", "output", ANY_NUMBER},
 };
 

@@ -1,9 +1,8 @@
 /// output_nonlinearity: a smooth static map on the output (a sensor's characteristic, a lever's geometry).
 ///     y' = y + half (shift + linear z + quadratic z^2 + cubic z^3),  z = (y - middle) / half
 /// middle and half of the model's output between its two saturations; beyond |z| = 1 the map goes on
-/// straight. All [1]; shift and linear say where the sensor was trimmed. The map increases: 1 + linear + 2 quadratic
-/// z + 3 cubic z^2 > 0 on [-1, 1].
-/// Inverse: by halving.
+/// straight. All [1]; shift and linear say where the sensor was trimmed. The map increases: 1 + linear + 2
+/// quadratic z + 3 cubic z^2 > 0 on [-1, 1]. Inverse: by halving.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>

@@ -216,8 +216,8 @@ static void run_plays(const effect_run_t* run, const model_t* model, start_t sta
     }
 }
 
-/// The body that stands in, and what the effects change in the plays. Another memory at the start is this body's
-/// own to forget.
+/// The body that stands in, and what the effects change in the plays. Another memory at the start is this
+/// body's own to forget.
 static void run_body(const effect_run_t* run, const model_t* model, start_t start, hysteresis_t* hysteresis,
                      const double* drive, double* output)
 {

@@ -1,6 +1,6 @@
-/// What a plant of Preisach's kind does beside a GPI model. Both wipe out and are congruent, so their difference
-/// follows from one function of two reversals, the Everett function E(alpha, beta), and is linear in its values on
-/// a grid. Source: I. D. Mayergoyz, Mathematical Models of Hysteresis (1991), ch. 1.
+/// What a plant of Preisach's kind does beside a GPI model. Both wipe out and are congruent, so their
+/// difference follows from one function of two reversals, the Everett function E(alpha, beta), and is linear
+/// in its values on a grid. Source: I. D. Mayergoyz, Mathematical Models of Hysteresis (1991), ch. 1.
 #ifndef HYST_HOST_EVERETT_H
 #define HYST_HOST_EVERETT_H
 
@@ -23,14 +23,15 @@ typedef struct {
 
 /// Negative saturation.
 everett_past_t everett_start(const model_t* model);
-/// Moves to `input`, limited to the range; row[EVERETT_FREE]: the difference's derivatives by the nodes' values and
-/// the constant.
+/// Moves to `input`, limited to the range; row[EVERETT_FREE]: the difference's derivatives by the nodes'
+/// values and the constant.
 void everett_step(everett_past_t* past, double input, double* row);
 
-/// Fits value[EVERETT_FREE] to difference[num_samples], output units, over an input from negative saturation: as
-/// smooth as predicts stretches best that the fit has not seen. precision[EVERETT_FREE][EVERETT_FREE]: upper
-/// triangle of the values' inverse covariance for errors of variance 1 of which `correlation` count as one
-/// independent, where values beyond `largest` [output] are not expected. Returns the RMS that is left of unseen stretches.
+/// Fits value[EVERETT_FREE] to difference[num_samples], output units, over an input from negative saturation:
+/// as smooth as predicts stretches best that the fit has not seen. precision[EVERETT_FREE][EVERETT_FREE]:
+/// upper triangle of the values' inverse covariance for errors of variance 1 of which `correlation` count as
+/// one independent, where values beyond `largest` [output] are not expected. Returns the RMS that is left of
+/// unseen stretches.
 double everett_fit(const model_t* model, const double* input, const double* difference, size_t num_samples,
                    double correlation, double largest, double* value, double* precision);
 

@@ -24,7 +24,8 @@ static void sum_up(const source_t* s, double* gram)
     for (size_t begin = 0; begin < s->num_samples; begin += CHUNK) {
         const size_t end = begin + CHUNK < s->num_samples ? begin + CHUNK : s->num_samples;
         s->rows(s->context, begin, end, s->chunk);
-        cblas_dsyrk(CblasColMajor, CblasUpper, CblasNoTrans, m, (int)(end - begin), 1, s->chunk, m, 1, gram, m);
+        cblas_dsyrk(CblasColMajor, CblasUpper, CblasNoTrans, m, (int)(end - begin), 1, s->chunk, m, 1, gram,
+                    m);
     }
 }
 
@@ -44,8 +45,8 @@ static void fill(const source_t* s, const double* direction, nuisance_t* nuisanc
     for (size_t begin = 0; begin < s->num_samples; begin += CHUNK) {
         const size_t end = begin + CHUNK < s->num_samples ? begin + CHUNK : s->num_samples;
         s->rows(s->context, begin, end, s->chunk);
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (int)(end - begin), (int)nuisance->count, m, 1, s->chunk, m,
-                    direction, m, 0, nuisance->series + begin, (int)s->num_samples);
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (int)(end - begin), (int)nuisance->count, m, 1,
+                    s->chunk, m, direction, m, 0, nuisance->series + begin, (int)s->num_samples);
     }
 }
 
@@ -54,15 +55,18 @@ nuisance_t nuisance_new(double* precision, size_t num_numbers, size_t num_sample
 {
     nuisance_t nuisance = {.num_samples = num_samples};
     const int m = (int)num_numbers;
-    source_t source = {num_numbers, num_samples, rows, context, xmalloc(CHUNK * num_numbers * sizeof(double))};
+    source_t source = {num_numbers, num_samples, rows, context,
+                       xmalloc(CHUNK * num_numbers * sizeof(double))};
     double* gram = xcalloc(num_numbers * num_numbers, sizeof *gram);
     double* energy = xmalloc(num_numbers * sizeof *energy);
     if (LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', m, precision, m) == 0) {
         sum_up(&source, gram);
         mirror(gram, num_numbers);
         // With precision = R'R the numbers are inverse(R) times independent ones of variance 1.
-        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, m, m, 1, precision, m, gram, m);
-        cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, m, m, 1, precision, m, gram, m);
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, m, m, 1, precision, m,
+                    gram, m);
+        cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, m, m, 1, precision, m,
+                    gram, m);
         if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', m, gram, m, energy) == 0) {
             while (nuisance.count < num_numbers && nuisance.count < MOST_DIRECTIONS &&
                    energy[num_numbers - 1 - nuisance.count] > least) {
@@ -73,8 +77,8 @@ nuisance_t nuisance_new(double* precision, size_t num_numbers, size_t num_sample
     nuisance.series = xmalloc((nuisance.count * num_samples + 1) * sizeof(double));
     if (nuisance.count > 0) {
         double* direction = &gram[(num_numbers - nuisance.count) * num_numbers];
-        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, m, (int)nuisance.count, 1,
-                    precision, m, direction, m);
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, m, (int)nuisance.count,
+                    1, precision, m, direction, m);
         fill(&source, direction, &nuisance);
     }
     free(source.chunk);
@@ -102,7 +106,8 @@ nuisance_filter_t nuisance_filter_new(const nuisance_t* nuisance, double varianc
         filter.factor[i * k + i] = variance;
     }
     if (k > 0) {
-        cblas_dsyrk(CblasColMajor, CblasUpper, CblasTrans, (int)k, (int)n, 1, counted, (int)n, 1, filter.factor, (int)k);
+        cblas_dsyrk(CblasColMajor, CblasUpper, CblasTrans, (int)k, (int)n, 1, counted, (int)n, 1,
+                    filter.factor, (int)k);
         // Positive definite: variance is.
         (void)LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', (int)k, filter.factor, (int)k);
     }
@@ -131,7 +136,7 @@ void nuisance_take(const nuisance_t* nuisance, const double* amount, double* res
 {
     const int n = (int)nuisance->num_samples;
     if (nuisance->count > 0) {
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, (int)nuisance->count, -1, nuisance->series, n, amount, 1, 1, residual,
-                    1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, (int)nuisance->count, -1, nuisance->series, n, amount, 1,
+                    1, residual, 1);
     }
 }

@@ -30,6 +30,7 @@ static const effect_case_t cases[] = {
     {"output_nonlinearity", NULL, {0.15, -0.06, -0.1, 0.05}, 0.0},
     {"drift", "linear", {0.03}, 0.0},
     {"drift", "spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1}, 0.0},
+    {"drift", "fine_spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1, 0.05, 0.1, 0.05, 0.1}, 0.0},
     {"periodic_disturbance", NULL, {0.55, 0.05, -0.03, 0.01, 0.02, -0.015, 0.01}, 0.0},
     {"quantization", NULL, {0.07, 0.02}, 0.0},
     {"exogenous", NULL, {0.03, 0.02, 0.01}, 0.0},

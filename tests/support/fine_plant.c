@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLAYS = 8, LAGS = 6, NODES = 6, UNKNOWNS = NODES + 2 };
+enum { PLAYS = 8, LAGS = 6, STATES = 6, MOST_NODES = 10, MOST_UNKNOWNS = MOST_NODES + 2 };
 
 typedef struct {
     const char* name;
@@ -21,7 +21,7 @@ typedef struct {
     double middle, half;
     double lag[LAGS];
     double place, speed;
-    double spline[UNKNOWNS];
+    double spline[MOST_UNKNOWNS];
     bool started;
 } plant_t;
 
@@ -78,8 +78,8 @@ static void start_plays(plant_t* plant, double v)
         plant->w[j] = fmax(bottom + r, low);
         if (is(plant, "initial_state")) {
             const double place =
-                (r - model->radius[0]) / (model->radius[PLAYS - 1] - model->radius[0]) * (NODES - 1);
-            const size_t node = place < NODES - 1 ? (size_t)place : NODES - 2;
+                (r - model->radius[0]) / (model->radius[PLAYS - 1] - model->radius[0]) * (STATES - 1);
+            const size_t node = place < STATES - 1 ? (size_t)place : STATES - 2;
             const double part = place - (double)node;
             plant->w[j] += ((1 - part) * plant->p[node] + part * plant->p[node + 1]) * (high - plant->w[j]);
         }
@@ -190,52 +190,54 @@ static double body(plant_t* plant, double y, double temperature)
     return by(plant, "creep", "delayed") ? y + p[0] * (mean - y) : y + p[0] * (mean - plant->place);
 }
 
-/// The natural spline through 0 and the nodes at 1 ... 6 as b x + sum c_k max(x - k, 0)^3: the nodes, and no
+/// The natural spline through 0 and the nodes at 1, 2 ... as b x + sum c_k max(x - k, 0)^3: the nodes, and no
 /// curvature beyond the last. Gauss-Jordan with pivots.
-static void fit_spline(const double* node, double* unknown)
+static void fit_spline(const double* node, size_t nodes, double* unknown)
 {
-    double a[UNKNOWNS][UNKNOWNS + 1] = {{0}};
-    for (size_t row = 0; row < UNKNOWNS; ++row) {
-        for (size_t k = 0; k <= NODES; ++k) {
+    const size_t unknowns = nodes + 2;
+    double a[MOST_UNKNOWNS][MOST_UNKNOWNS + 1] = {{0}};
+    for (size_t row = 0; row < unknowns; ++row) {
+        for (size_t k = 0; k <= nodes; ++k) {
             const double x = fmax((double)row + 1 - (double)k, 0);
-            a[row][k + 1] = row < NODES ? x * x * x : row == NODES ? 1 : (double)k;
+            a[row][k + 1] = row < nodes ? x * x * x : row == nodes ? 1 : (double)k;
         }
-        a[row][0] = row < NODES ? (double)row + 1 : 0;
-        a[row][UNKNOWNS] = row < NODES ? node[row] : 0;
+        a[row][0] = row < nodes ? (double)row + 1 : 0;
+        a[row][unknowns] = row < nodes ? node[row] : 0;
     }
-    for (size_t column = 0; column < UNKNOWNS; ++column) {
+    for (size_t column = 0; column < unknowns; ++column) {
         size_t best = column;
-        for (size_t row = column; row < UNKNOWNS; ++row) {
+        for (size_t row = column; row < unknowns; ++row) {
             best = fabs(a[row][column]) > fabs(a[best][column]) ? row : best;
         }
-        for (size_t k = 0; k <= UNKNOWNS; ++k) {
+        for (size_t k = 0; k <= unknowns; ++k) {
             const double swapped = a[column][k];
             a[column][k] = a[best][k];
             a[best][k] = swapped;
         }
-        for (size_t row = 0; row < UNKNOWNS; ++row) {
+        for (size_t row = 0; row < unknowns; ++row) {
             const double factor = row != column ? a[row][column] / a[column][column] : 0;
-            for (size_t k = column; k <= UNKNOWNS; ++k) {
+            for (size_t k = column; k <= unknowns; ++k) {
                 a[row][k] -= factor * a[column][k];
             }
         }
     }
-    for (size_t k = 0; k < UNKNOWNS; ++k) {
-        unknown[k] = a[k][UNKNOWNS] / a[k][k];
+    for (size_t k = 0; k < unknowns; ++k) {
+        unknown[k] = a[k][unknowns] / a[k][k];
     }
 }
 
 static double drift(plant_t* plant, double time)
 {
-    const double x = NODES * time / plant->duration;
     if (by(plant, "drift", "linear")) {
         return plant->p[0] * time;
     }
+    const size_t nodes = by(plant, "drift", "fine_spline") ? 10 : 6;
+    const double x = (double)nodes * time / plant->duration;
     if (!plant->started) {
-        fit_spline(plant->p, plant->spline);
+        fit_spline(plant->p, nodes, plant->spline);
     }
     double value = plant->spline[0] * x;
-    for (size_t k = 0; k <= NODES; ++k) {
+    for (size_t k = 0; k <= nodes; ++k) {
         value += plant->spline[k + 1] * pow(fmax(x - (double)k, 0), 3);
     }
     return value;
