@@ -4,7 +4,7 @@ import math
 import numpy as np
 
 from effects import CATALOGUE
-from thresholds import LARGE, LIMITS, SMALL_DRAW_BELOW, SMALL_DRAW_TAIL, THIRD
+from thresholds import LARGE, LIMITS, OPEN, SMALL_DRAW_BELOW, SMALL_DRAW_TAIL, THIRD
 
 
 def _rate(rows, key):
@@ -185,6 +185,6 @@ def scoreboard(rows, measured):
     for key, text, sense, limit in LIMITS:
         # With fewer than six sizes an effect, its threshold is a coin's word: shown, not held.
         held = None if key == "detected" and small else holds(figures[key], sense, limit, small)
-        limits.append({"key": key, "text": text, "sense": sense, "limit": limit, **figures[key], "holds": held})
+        limits.append({"key": key, "text": text, "sense": sense, "limit": limit, **figures[key], "holds": held, "open": key in OPEN})
     return {"cases": len(rows), "limits": limits, "confusion": confusion(rows), "detection": thresholds,
             "calibration_curve": curve, "bodies": by_body(rows), "measured": measured}

@@ -11,7 +11,7 @@ def figure(line):
 
 
 def held(line):
-    return {True: "ok", False: "MISSED", None: "-"}[line["holds"]]
+    return {True: "ok", False: "missed, open" if line["open"] else "MISSED", None: "-"}[line["holds"]]
 
 
 def _limits(board):

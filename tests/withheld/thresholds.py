@@ -34,6 +34,10 @@ LIMITS = (
     ("measured", "measured records: the known cause first or in the set", "min", 1.0),
 )
 
+# Limits that the checking draw does not reach yet: shown as missed in every scoreboard, and no draw fails by them alone.
+# The list only ever gets shorter.
+OPEN = ()
+
 # A small draw holds a rate as long as a tool that just meets the limit would do as badly in one of twenty draws.
 SMALL_DRAW_TAIL = 0.05
 SMALL_DRAW_BELOW = 300
