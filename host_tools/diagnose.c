@@ -176,6 +176,12 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     thinned_free(&fitted);
 }
 
+/// The first sample of the calibration that the model was fitted to: those before are of an unknown past.
+static json_int_t first_fitted(const model_t* model)
+{
+    return json_integer_value(json_object_get(model->identification, "first_fitted"));
+}
+
 static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
 {
     const diagnose_options_t* options = w->options;
@@ -185,7 +191,8 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     w->run = effect_run_new(model, &w->thinned.record);
     w->run.fast = fast;
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
-    if (options->calibration != NULL) {
+    // A body cannot be learned from loops whose past is unknown.
+    if (options->calibration != NULL && first_fitted(model) == 0) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, &w->thinned.record);
         w->run.body = w->body.is_duhem ? &w->body.duhem : NULL;

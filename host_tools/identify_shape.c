@@ -7,6 +7,8 @@
 /// Least increment of a table between neighbouring knots, as a part of an even increment: keeps envelopes
 /// strictly increasing after rounding to single precision.
 static const double least_increment = 1e-4;
+/// The largest, likewise: steeper than any record tells, and the least ones still count beside it.
+static const double most_increment = 1e3;
 
 static size_t raw_of_envelopes(const shape_t* shape)
 {
@@ -76,7 +78,13 @@ static double softplus(double t)
 
 static double increment_of(const shape_t* shape, double t)
 {
-    return even_increment(shape) * (softplus(t) + least_increment);
+    return even_increment(shape) * (fmin(softplus(t), most_increment) + least_increment);
+}
+
+/// d increment / d t.
+static double increment_slope(const shape_t* shape, double t)
+{
+    return softplus(t) < most_increment ? even_increment(shape) / (1 + exp(-t)) : 0;
 }
 
 static double parameter_of_increment(const shape_t* shape, double increment)
@@ -180,8 +188,8 @@ void shape_raw_jacobian(const shape_t* shape, const double* theta, double* jacob
         tanh_jacobian(theta, 2, 2, rows, jacobian);
     } else if (shape->envelope == CURVE_TABLE) {
         for (size_t i = 0; i + 1 < k; i++) {
-            const double ascending = even_increment(shape) / (1 + exp(-theta[i]));
-            const double descending = even_increment(shape) / (1 + exp(-theta[k - 1 + i]));
+            const double ascending = increment_slope(shape, theta[i]);
+            const double descending = increment_slope(shape, theta[k - 1 + i]);
             for (size_t below = 0; below <= i; below++) {
                 jacobian[below + rows * i] = -ascending;
             }
