@@ -34,7 +34,8 @@ typedef struct {
     gap_t gap;
     candidates_t candidates;
     scale_t scale;
-    grid_step_t grid;                      ///< that the output lies on and the calibration's does not
+    double correction; ///< mean square of what the body adds to the model over the judged samples
+    grid_step_t grid;  ///< that the output lies on and the calibration's does not
     double plain_error[HYPOTHESIS_BLOCKS]; ///< of the model alone: sum of squares of each block
     double plain_rmse;
 } work_t;
@@ -138,8 +139,7 @@ static double correction_of(const work_t* w)
 
 static void describe_gap(const work_t* w, diagnosis_t* d)
 {
-    const double correction = w->run.body != NULL ? 1 : 0;
-    const double floor = sqrt(w->scale.floor + correction * correction_of(w));
+    const double floor = sqrt(w->scale.floor + (w->run.body != NULL ? w->correction : 0));
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
     for (size_t t = 0; t < w->run.num_samples; t++) {
@@ -165,10 +165,15 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     run.body = w->run.body;
     gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.record.output, fitted.carried, &nothing,
                         w->gap.filter[0].variance);
+    gap.dead_zone = w->gap.dead_zone;
+    // The converter, which add_grid put last, is known.
+    const size_t num_known = w->grid.step > 0 ? 1 : 0;
     for (size_t i = 1; i < w->candidates.count; i++) {
         hypothesis_t* h = &w->candidates.hypothesis[i];
         if (h == verdict->hypothesis) {
+            h->num_uses -= num_known;
             hypothesis_fit(h, &gap, -1, LAST_EVALUATIONS);
+            h->num_uses += num_known;
         }
     }
     gap_free(&gap);
@@ -245,10 +250,10 @@ static void search(work_t* w, double noise)
     find_grid(w, noise);
     *c = candidates_new(&w->gap, w->options->calibration,
                         w->options->num_threads > 0 ? w->options->num_threads : parallel_processors());
-    const double correction = correction_of(w);
+    w->correction = correction_of(w);
     w->scale = scale_new(
-        noise * noise, w->body.misfit * w->body.misfit, correction,
-        fmax(hypothesis_mean_square(&c->hypothesis[0]), w->plain_rmse * w->plain_rmse - correction));
+        noise * noise, w->body.misfit * w->body.misfit, w->correction,
+        fmax(hypothesis_mean_square(&c->hypothesis[0]), w->plain_rmse * w->plain_rmse - w->correction));
     candidates_add_singles(c);
     double least = HUGE_VAL;
     for (size_t i = 0; i < c->count; i++) {
@@ -295,7 +300,8 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);
     d->after = xmalloc(record->num_samples * sizeof *d->after);
-    simulate_model(&w, &w.whole, &w.candidates.hypothesis[0], d->before);
+    const hypothesis_t none = {0};
+    simulate_model(&w, &w.whole, &none, d->before);
     simulate_model(&w, &w.whole, d->cause[0].hypothesis, d->after);
     d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
     message_progress_done();

@@ -20,9 +20,9 @@ typedef struct {
 typedef struct {
     const hypothesis_t* hypothesis;
     double probability;
-    double rmse_after; ///< on held-out stretches
+    double
+        rmse_after; ///< on held-out stretches; where another body was judged, of the fit put into the model
     double shrink, shrink_low, shrink_high;
-    double closeness; ///< RMS distance of its prediction from the verdict's [output]
 } cause_t;
 
 typedef struct {

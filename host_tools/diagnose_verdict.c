@@ -83,15 +83,6 @@ static bool is_shadowed(const scale_t* scale, const candidates_t* c, size_t i)
     return false;
 }
 
-static double rms_distance(const double* a, const double* b, size_t n)
-{
-    double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        sum += (a[t] - b[t]) * (a[t] - b[t]);
-    }
-    return sqrt(sum / (double)n);
-}
-
 static int by_probability(const void* a, const void* b)
 {
     const double x = ((const cause_t*)a)->probability;
@@ -102,8 +93,7 @@ static int by_probability(const void* a, const void* b)
 /// One cause for each set of names, the better mechanism's.
 static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
 {
-    const hypothesis_t* leader = &c->hypothesis[verdict_best(scale, c)];
-    const double best = verdict_score(scale, leader);
+    const double best = verdict_score(scale, &c->hypothesis[verdict_best(scale, c)]);
     d->cause = xcalloc(c->count, sizeof *d->cause);
     double total = 0;
     for (size_t i = 0; i < c->count; i++) {
@@ -114,7 +104,6 @@ static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
         cause_t* cause = &d->cause[d->num_causes++];
         const double weight = exp(-sharpness * (verdict_score(scale, h) - best));
         *cause = (cause_t){.hypothesis = h, .probability = weight * pow(prior, (double)h->num_uses)};
-        cause->closeness = rms_distance(h->predicted, leader->predicted, c->gap->run->num_samples);
         total += cause->probability;
     }
     for (size_t k = 0; k < d->num_causes; k++) {
