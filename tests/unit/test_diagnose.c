@@ -187,6 +187,29 @@ static void test_threads_change_nothing(void)
 }
 
 /// Knocks on the sensor belong to no entry of the catalogue.
+/// The step stands in the values: exact but for rounding; the gap is still that of the model without a
+/// converter.
+static void test_coarse_steps_are_named_beside_a_lag(void)
+{
+    make_input(4);
+    run_plant(0.2, 0);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] = 0.1 * round(output[t] / 0.1);
+    }
+    run_diagnosis();
+    TEST_ASSERT_FALSE(diagnosis.is_unknown);
+    const hypothesis_t* verdict = diagnosis.cause[0].hypothesis;
+    TEST_ASSERT_EQUAL(2, verdict->num_uses);
+    TEST_ASSERT_EQUAL_PTR(&effect_output_lag, verdict->use[0].effect);
+    TEST_ASSERT_EQUAL_PTR(&effect_quantization, verdict->use[1].effect);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.1, verdict->use[1].parameter[0]);
+    double sum = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        sum += (output[t] - diagnosis.before[t]) * (output[t] - diagnosis.before[t]);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, diagnosis.rmse, sqrt(sum / SAMPLES));
+}
+
 static void test_stranger_is_unknown(void)
 {
     make_input(5);
@@ -243,6 +266,7 @@ int main(void)
     RUN_TEST(test_column_is_named);
     RUN_TEST(test_two_effects_are_both_named);
     RUN_TEST(test_threads_change_nothing);
+    RUN_TEST(test_coarse_steps_are_named_beside_a_lag);
     RUN_TEST(test_stranger_is_unknown);
     RUN_TEST(test_fitted_parameters_are_in_their_order);
     RUN_TEST(test_records_without_excitation_are_refused);
