@@ -74,13 +74,56 @@ static void block_errors(const work_t* w, const hypothesis_t* h, double* error)
     free(predicted);
 }
 
+/// The converter, which add_grid put last, is known: no fit looks for it.
+static hypothesis_t without_grid(const work_t* w, const hypothesis_t* h)
+{
+    hypothesis_t searched = *h;
+    searched.num_uses -= w->grid.step > 0 ? 1 : 0;
+    return searched;
+}
+
+static bool has_another_body(const work_t* w)
+{
+    return w->run.body != NULL || w->run.correction != NULL;
+}
+
+/// The cause's hypothesis where the search keeps it.
+static hypothesis_t* own(const work_t* w, const cause_t* cause)
+{
+    return &w->candidates.hypothesis[cause->hypothesis - w->candidates.hypothesis];
+}
+
+typedef struct {
+    const work_t* w;
+    const diagnosis_t* d;
+} judging_t;
+
+static void judge_cause(void* context, size_t index)
+{
+    const judging_t* j = context;
+    hypothesis_t* hypothesis = own(j->w, &j->d->cause[index]);
+    hypothesis_t searched = without_grid(j->w, hypothesis);
+    hypothesis_judge(&searched, &j->w->gap);
+    memcpy(hypothesis->block_error, searched.block_error, sizeof hypothesis->block_error);
+}
+
+/// Held-out errors of the causes, where they are what is reported.
+static void judge_causes(const work_t* w, const diagnosis_t* d)
+{
+    if (!has_another_body(w)) {
+        judging_t judging = {w, d};
+        parallel_for(d->num_causes, w->candidates.num_threads, judge_cause, &judging,
+                     (parallel_progress_t){"diagnose", 0.8, 0.9});
+    }
+}
+
 /// Shrink with its 90 % interval over resampled stretches. Where the model's own plays were judged, what is
 /// left was held out; another body's parameters are put into the model that the user has.
 static void set_shrink(const work_t* w, cause_t* cause)
 {
     double left[HYPOTHESIS_BLOCKS];
     memcpy(left, cause->hypothesis->block_error, sizeof left);
-    if (w->run.body != NULL || w->run.correction != NULL) {
+    if (has_another_body(w)) {
         block_errors(w, cause->hypothesis, left);
     }
     const interval_t part = resample_ratio(left, w->plain_error, HYPOTHESIS_BLOCKS, 1);
@@ -119,7 +162,7 @@ static double* whole_gap(const work_t* w)
 /// Mean square of what the body adds to the model over the judged samples.
 static double correction_of(const work_t* w)
 {
-    if (w->run.body == NULL && w->run.correction == NULL) {
+    if (!has_another_body(w)) {
         return 0;
     }
     const size_t n = w->run.num_samples;
@@ -166,16 +209,10 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.record.output, fitted.carried, &nothing,
                         w->gap.filter[0].variance);
     gap.dead_zone = w->gap.dead_zone;
-    // The converter, which add_grid put last, is known.
-    const size_t num_known = w->grid.step > 0 ? 1 : 0;
-    for (size_t i = 1; i < w->candidates.count; i++) {
-        hypothesis_t* h = &w->candidates.hypothesis[i];
-        if (h == verdict->hypothesis) {
-            h->num_uses -= num_known;
-            hypothesis_fit(h, &gap, -1, LAST_EVALUATIONS);
-            h->num_uses += num_known;
-        }
-    }
+    hypothesis_t* hypothesis = own(w, verdict);
+    hypothesis_t searched = without_grid(w, hypothesis);
+    hypothesis_fit(&searched, &gap, -1, LAST_EVALUATIONS);
+    memcpy(hypothesis->use, searched.use, searched.num_uses * sizeof *searched.use);
     gap_free(&gap);
     effect_run_free(&run);
     thinned_free(&fitted);
@@ -290,6 +327,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     search(&w, noise);
     describe_gap(&w, d);
     verdict_find(&w.scale, &w.candidates, d);
+    judge_causes(&w, d);
     for (size_t k = 0; k < d->num_causes; k++) {
         set_shrink(&w, &d->cause[k]);
     }

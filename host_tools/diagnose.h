@@ -16,6 +16,8 @@ typedef struct {
     size_t num_threads;          ///< for the searches, which find the same on any number; 0: one a processor
 } diagnose_options_t;
 
+enum { DIAGNOSIS_MOST_CAUSES = 12 };
+
 /// A candidate explanation as reported.
 typedef struct {
     const hypothesis_t* hypothesis;
@@ -31,8 +33,8 @@ typedef struct {
     double rmse, relative, noise, noise_floor, closable;
     size_t num_regions;
     region_t region[WHERE_MAX_REGIONS];
-    size_t num_causes;
-    cause_t* cause; ///< [num_causes] best first
+    size_t num_causes; ///< at most DIAGNOSIS_MOST_CAUSES
+    cause_t* cause;    ///< [num_causes] best first
     size_t num_hypotheses;
     hypothesis_t* hypothesis; ///< owns what the causes point to
     double* before;           ///< [num_samples] the model's output

@@ -63,7 +63,7 @@ size_t gap_block_of(const gap_t* gap, size_t sample)
 
 hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses)
 {
-    hypothesis_t hypothesis = {.num_uses = num_uses, .fit_rmse = HUGE_VAL, .held_out_rmse = HUGE_VAL};
+    hypothesis_t hypothesis = {.num_uses = num_uses, .fit_rmse = HUGE_VAL};
     for (size_t i = 0; i < num_uses; i++) {
         hypothesis.use[i] = uses[i];
     }
@@ -342,18 +342,6 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
     hypothesis_predict(hypothesis, gap);
 }
 
-void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
-{
-    search_t s = search_new(hypothesis, gap, -1);
-    hypothesis->predicted =
-        xrealloc(hypothesis->predicted, num_residuals(&s) * sizeof *hypothesis->predicted);
-    residual_of(&s, hypothesis->predicted);
-    for (size_t t = 0; t < gap->run->num_samples; t++) {
-        hypothesis->predicted[t] += gap->output[t];
-    }
-    search_free(&s);
-}
-
 static bool is_another(const hypothesis_t* hypothesis)
 {
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
@@ -365,6 +353,19 @@ static bool is_another(const hypothesis_t* hypothesis)
     return false;
 }
 
+void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
+{
+    search_t s = search_new(hypothesis, gap, -1);
+    hypothesis->predicted =
+        xrealloc(hypothesis->predicted, num_residuals(&s) * sizeof *hypothesis->predicted);
+    residual_of(&s, hypothesis->predicted);
+    for (size_t t = 0; t < gap->run->num_samples; t++) {
+        hypothesis->predicted[t] += gap->output[t];
+    }
+    search_free(&s);
+    hypothesis->is_another = is_another(hypothesis);
+}
+
 double hypothesis_mean_square(const hypothesis_t* hypothesis)
 {
     return hypothesis->is_another ? HUGE_VAL : hypothesis->fit_rmse * hypothesis->fit_rmse;
@@ -372,7 +373,6 @@ double hypothesis_mean_square(const hypothesis_t* hypothesis)
 
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
 {
-    double sum = 0;
     double* residual = xmalloc((gap->run->num_samples + gap->filter[0].nuisance->count) * sizeof *residual);
     for (int fold = 0; fold < HYPOTHESIS_FOLDS; fold++) {
         hypothesis_t trial = *hypothesis;
@@ -387,12 +387,9 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
             }
             if (is_held_out(&s, b)) {
                 hypothesis->block_error[b] = error;
-                sum += error;
             }
         }
         search_free(&s);
     }
     free(residual);
-    hypothesis->held_out_rmse = sqrt(sum / (double)gap->num_judged);
-    hypothesis->is_another = is_another(hypothesis);
 }

@@ -34,10 +34,10 @@ size_t gap_block_of(const gap_t* gap, size_t sample);
 typedef struct {
     size_t num_uses; ///< 0: the plain model
     effect_use_t use[HYPOTHESIS_MAX_EFFECTS];
-    double fit_rmse;      ///< fitted to the whole record, the price of what the body leaves open included
-    double held_out_rmse; ///< each fold predicted by a fit to the others, the memory carried over
-    bool is_another;      ///< an effect's parameters make it another effect
-    double block_error[HYPOTHESIS_BLOCKS]; ///< held-out sum of squares of each block
+    double fit_rmse; ///< fitted to the whole record, the price of what the body leaves open included
+    bool is_another; ///< an effect's parameters make it another effect
+    double block_error[HYPOTHESIS_BLOCKS]; ///< sum of squares of each block, predicted by a fit to the other
+                                           ///< folds with the memory carried over; by hypothesis_judge
     double* predicted; ///< [num_samples] by the fit to the whole record, with what the body leaves open
                        ///< chosen for it; or NULL before it
 } hypothesis_t;
@@ -55,12 +55,12 @@ void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
 /// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
-/// Fills `predicted` for the present parameters.
+/// Fills `predicted` and `is_another` for the present parameters.
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap);
 /// Mean square by which it is weighed: with what the body leaves open priced, `fit_rmse` is the record's
 /// marginal likelihood. Infinite for one that is another.
 double hypothesis_mean_square(const hypothesis_t* hypothesis);
-/// Held-out errors, from the present parameters.
+/// Fills block_error by fits from the present parameters.
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap);
 
 #endif

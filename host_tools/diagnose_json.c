@@ -87,7 +87,7 @@ json_t* diagnosis_to_json(const diagnosis_t* d)
         json_array_append_new(where, region_json(&d->region[i]));
     }
     json_t* causes = json_array();
-    for (size_t k = 0; k < d->num_causes && k < 12; k++) {
+    for (size_t k = 0; k < d->num_causes; k++) {
         json_array_append_new(causes, cause_json(&d->cause[k]));
     }
     return json_pack("{s:s, s:i, s:{s:I, s:I, s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o}", "format",

@@ -23,7 +23,6 @@ candidates_t candidates_new(const gap_t* gap, const record_t* calibration, size_
     c.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *c.hypothesis);
     hypothesis_t* plain = add(&c, NULL, 0);
     hypothesis_search(plain, gap, false, 1);
-    hypothesis_judge(plain, gap);
     return c;
 }
 
@@ -87,7 +86,6 @@ static void try_single(void* context, size_t index)
     hypothesis_t* hypothesis = &c->hypothesis[index + 1];
     const bool guessed = guess_parameters(c, c->hypothesis[0].predicted, &hypothesis->use[0]);
     hypothesis_search(hypothesis, c->gap, guessed, SINGLE_EVALUATIONS);
-    hypothesis_judge(hypothesis, c->gap);
 }
 
 void candidates_add_singles(candidates_t* c)
@@ -177,7 +175,7 @@ static void try_extension(void* context, size_t index)
     e->fitted = from_start.fit_rmse < e->fitted.fit_rmse ? from_start : e->fitted;
 }
 
-/// Further from there and from all starts, and judged.
+/// Further from there and from all starts.
 static void refine(void* context, size_t index)
 {
     const extensions_t* extensions = context;
@@ -191,7 +189,6 @@ static void refine(void* context, size_t index)
         hypothesis->fit_rmse = brief.fit_rmse;
         hypothesis_predict(hypothesis, gap);
     }
-    hypothesis_judge(hypothesis, gap);
 }
 
 static void add_best(candidates_t* c, extension_t* extension, size_t count, parallel_progress_t brief,
@@ -219,7 +216,7 @@ void candidates_add_pairs(candidates_t* c)
         }
     }
     add_best(c, pair, count, (parallel_progress_t){"diagnose", 0.4, 0.6},
-             (parallel_progress_t){"diagnose", 0.6, 0.75});
+             (parallel_progress_t){"diagnose", 0.6, 0.7});
     free(pair);
 }
 
@@ -241,6 +238,6 @@ void candidates_add_triples(candidates_t* c)
             triple[count++] = (extension_t){.base = best, .further = &leader[j]};
         }
     }
-    add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.75, 0.8},
-             (parallel_progress_t){"diagnose", 0.8, 0.9});
+    add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.7, 0.75},
+             (parallel_progress_t){"diagnose", 0.75, 0.8});
 }

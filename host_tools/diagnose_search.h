@@ -1,4 +1,4 @@
-/// The search for explanations: hypotheses with none, one, two and three effects, fitted and judged.
+/// The search for explanations: hypotheses with none, one, two and three effects, fitted.
 #ifndef HYST_HOST_DIAGNOSE_SEARCH_H
 #define HYST_HOST_DIAGNOSE_SEARCH_H
 
@@ -19,7 +19,7 @@ void candidates_free(candidates_t* candidates);
 
 /// Every effect in the catalogue, each mechanism and auxiliary column.
 void candidates_add_singles(candidates_t* candidates);
-/// Every pair with a leading single in it, briefly; the best of them are fitted further and judged.
+/// Every pair with a leading single in it, briefly; the best of them are fitted further.
 void candidates_add_pairs(candidates_t* candidates);
 /// The best pair of names with each further effect; likewise.
 void candidates_add_triples(candidates_t* candidates);

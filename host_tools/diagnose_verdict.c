@@ -110,6 +110,7 @@ static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
         d->cause[k].probability /= total;
     }
     qsort(d->cause, d->num_causes, sizeof *d->cause, by_probability);
+    d->num_causes = d->num_causes < DIAGNOSIS_MOST_CAUSES ? d->num_causes : DIAGNOSIS_MOST_CAUSES;
 }
 
 /// The part of the residual that a flexible predictor still finds.
