@@ -237,7 +237,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     if (options->calibration != NULL && first_fitted(model) == 0) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, &w->thinned.record);
-        w->run.body = w->body.is_duhem ? &w->body.duhem : NULL;
+        w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
         w->run.correction = w->body.correction;
     }
     w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried,
@@ -289,7 +289,7 @@ static void search(work_t* w, double noise)
                         w->options->num_threads > 0 ? w->options->num_threads : parallel_processors());
     w->correction = correction_of(w);
     w->scale = scale_new(
-        noise * noise, w->body.misfit * w->body.misfit, w->correction,
+        noise * noise, w->body.misfit * w->body.misfit, w->body.doubt * w->correction,
         fmax(hypothesis_mean_square(&c->hypothesis[0]), w->plain_rmse * w->plain_rmse - w->correction));
     candidates_add_singles(c);
     double least = HUGE_VAL;

@@ -1,7 +1,9 @@
 #include "diagnose_body.h"
 
 #include "duhem_fit.h"
+#include "element_fit.h"
 #include "everett.h"
+#include "record_thin.h"
 #include "reference.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +13,15 @@
 /// of Preisach's kind it fits the loops it has seen and no others.
 static const double clearly_less = 0.8;
 static const double no_more = 1.05;
+/// The same for an element, which has fewer than the model.
+static const double less_with_few = 0.95;
+/// Of the noise, what an element may leave so that no other body is looked for.
+static const double hardly_more = 1.15;
+/// Samples of a long calibration that an element is fitted to.
+static const size_t most_calibrated = 12000;
+/// How much a body may be off on other work, in parts of what it differs from the model by.
+static const double doubt_of_tables = 0.05;
+static const double doubt_of_element = 0.002;
 
 static double mean_square_error(const double* a, const double* b, size_t n)
 {
@@ -21,12 +32,12 @@ static double mean_square_error(const double* a, const double* b, size_t n)
     return sum / (double)n;
 }
 
-/// Whether the Duhem body is at least as near to the record, whatever else acts on it.
-static bool is_near(const model_t* model, start_t start, const duhem_t* duhem, const record_t* record)
+/// Whether the body is at least as near to the record as the model, whatever else acts on it.
+static bool is_near(const model_t* model, start_t start, const stand_in_t* body, const record_t* record)
 {
     const size_t n = record->num_samples;
     double* output = xmalloc(n * sizeof *output);
-    duhem_run(duhem, model, start, 0, record->input, n, output);
+    stand_in_run(body, model, start, 0, record->input, n, output);
     const double with = mean_square_error(output, record->output, n);
     reference_run(model, start, record->input, n, output);
     const double without = mean_square_error(output, record->output, n);
@@ -64,18 +75,26 @@ typedef struct {
     duhem_state_t state;
     double derivative[DUHEM_FREE];
     everett_past_t past;
+    const double* derivatives; ///< [samples][ELEMENT_FREE] of an element
 } rows_t;
 
 static void duhem_rows(void* context, size_t begin, size_t end, double* derivatives)
 {
     rows_t* r = context;
     if (begin == 0) {
-        r->state = duhem_start(&r->body->duhem, r->model, r->start, r->input[0], r->derivative);
+        r->state = duhem_start(&r->body->stand_in.duhem, r->model, r->start, r->input[0], r->derivative);
     }
     for (size_t t = begin; t < end; t++) {
         (void)duhem_step(&r->state, r->input[t]);
         memcpy(&derivatives[(t - begin) * DUHEM_FREE], r->derivative, sizeof r->derivative);
     }
+}
+
+static void element_rows(void* context, size_t begin, size_t end, double* derivatives)
+{
+    const rows_t* r = context;
+    memcpy(derivatives, &r->derivatives[begin * ELEMENT_FREE],
+           (end - begin) * ELEMENT_FREE * sizeof *derivatives);
 }
 
 static void everett_rows(void* context, size_t begin, size_t end, double* derivatives)
@@ -103,32 +122,92 @@ static void scale(double* precision, size_t numbers, double factor)
     }
 }
 
-/// Sets `duhem`, `misfit` and `nuisance` where it is taken.
+/// Of the noise's, the least size of one error of the calibration, and how many of them count as one.
+static double errors_of(const body_t* body, const model_t* model, start_t start, const stand_in_t* stand_in,
+                        const record_t* calibration, double left)
+{
+    const size_t n = calibration->num_samples;
+    double* residual = xmalloc(n * sizeof *residual);
+    stand_in_run(stand_in, model, start, 0, calibration->input, n, residual);
+    for (size_t t = 0; t < n; t++) {
+        residual[t] = calibration->output[t] - residual[t];
+    }
+    const double errors = left * left / (body->noise * body->noise) * correlation_of(residual, n);
+    free(residual);
+    return errors;
+}
+
+/// Sets `stand_in`, `misfit`, `doubt` and `nuisance` where it is taken.
 static void try_duhem(body_t* body, const model_t* model, start_t start, const record_t* calibration,
                       const record_t* record)
 {
-    const size_t n = calibration->num_samples;
     double* precision = xmalloc((size_t)DUHEM_FREE * DUHEM_FREE * sizeof *precision);
-    double* residual = xmalloc(n * sizeof *residual);
     double left = HUGE_VAL;
-    body->duhem =
-        duhem_fit(model, start, calibration->input, calibration->output, n, body->noise, &left, precision);
-    if (left * left < clearly_less * body->misfit * body->misfit &&
-        is_near(model, start, &body->duhem, record)) {
-        body->is_duhem = true;
+    const stand_in_t found = {.duhem = duhem_fit(model, start, calibration->input, calibration->output,
+                                                 calibration->num_samples, body->noise, &left, precision)};
+    if (left * left < clearly_less * body->misfit * body->misfit && is_near(model, start, &found, record)) {
+        nuisance_free(&body->nuisance);
+        body->stands_in = true;
+        body->stand_in = found;
         body->misfit = left;
-        duhem_run(&body->duhem, model, start, 0, calibration->input, n, residual);
-        for (size_t t = 0; t < n; t++) {
-            residual[t] = calibration->output[t] - residual[t];
-        }
-        const double errors = left * left / (body->noise * body->noise) * correlation_of(residual, n);
-        scale(precision, DUHEM_FREE, 1 / errors);
+        body->doubt = doubt_of_tables;
+        scale(precision, DUHEM_FREE, 1 / errors_of(body, model, start, &found, calibration, left));
         rows_t rows = {.body = body, .model = model, .start = start, .input = record->input};
         body->nuisance = nuisance_new(precision, DUHEM_FREE, record->num_samples, least_energy * left * left,
                                       duhem_rows, &rows);
     }
     free(precision);
-    free(residual);
+}
+
+/// What the calibration leaves open of an element.
+static nuisance_t element_nuisance(const body_t* body, const element_record_t* calibration, double errors,
+                                   const record_t* record)
+{
+    const element_t* element = &body->stand_in.element;
+    double precision[ELEMENT_FREE * ELEMENT_FREE];
+    double* derivatives = xmalloc(record->num_samples * ELEMENT_FREE * sizeof *derivatives);
+    element_precision(element, calibration, precision);
+    scale(precision, ELEMENT_FREE, 1 / errors);
+    element_derivatives(element, record->input, record->num_samples, derivatives);
+    rows_t rows = {.derivatives = derivatives};
+    const nuisance_t nuisance = nuisance_new(precision, ELEMENT_FREE, record->num_samples,
+                                             least_energy * body->misfit * body->misfit, element_rows, &rows);
+    free(derivatives);
+    return nuisance;
+}
+
+/// The element of each kind; sets `stand_in`, `misfit`, `doubt` and `nuisance` by one that is taken. From
+/// negative saturation only.
+static void try_elements(body_t* body, const model_t* model, const record_t* calibration,
+                         const record_t* record)
+{
+    thinned_t thinned = record_thin(calibration, most_calibrated);
+    const element_record_t fitted = {.input = thinned.record.input,
+                                     .output = thinned.record.output,
+                                     .carried = thinned.carried,
+                                     .num_samples = thinned.record.num_samples,
+                                     .input_min = model->input_min,
+                                     .input_max = model->input_max,
+                                     .noise = body->noise};
+    const double model_misfit = body->misfit;
+    for (element_kind_t kind = 0; kind < ELEMENT_KINDS; kind++) {
+        double left;
+        const stand_in_t found = {.is_element = true, .element = element_fit(kind, &fitted, &left)};
+        if (left < body->misfit && left * left < less_with_few * model_misfit * model_misfit &&
+            is_near(model, START_NEGATIVE_SATURATION, &found, record)) {
+            body->stands_in = true;
+            body->stand_in = found;
+            body->misfit = left;
+        }
+    }
+    if (body->stands_in) {
+        const double missed = fmax(body->misfit * body->misfit - body->noise * body->noise, 0);
+        body->doubt = missed / (model_misfit * model_misfit - body->misfit * body->misfit) + doubt_of_element;
+        const double errors =
+            errors_of(body, model, START_NEGATIVE_SATURATION, &body->stand_in, &thinned.record, body->misfit);
+        body->nuisance = element_nuisance(body, &fitted, errors, record);
+    }
+    thinned_free(&thinned);
 }
 
 /// Sets `correction`, `misfit` and `nuisance`.
@@ -148,6 +227,7 @@ static void add_everett(body_t* body, const model_t* model, const record_t* cali
     const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n),
                                     few * sqrt(beyond_noise), value, precision);
     body->misfit = fmin(left, body->misfit);
+    body->doubt = doubt_of_tables;
     scale(precision, EVERETT_FREE, 1 / (left * left));
     rows_t rows = {.body = body, .model = model, .input = record->input};
     body->nuisance = nuisance_new(precision, EVERETT_FREE, record->num_samples, least_energy * left * left,
@@ -171,8 +251,13 @@ body_t body_find(const model_t* model, start_t start, const record_t* calibratio
     if (!(noise > 0 && model_misfit > noise && calibration->num_samples > 2 * DUHEM_FREE)) {
         return body;
     }
-    try_duhem(&body, model, start, calibration, record);
-    if (!body.is_duhem && start == START_NEGATIVE_SATURATION) {
+    if (start == START_NEGATIVE_SATURATION) {
+        try_elements(&body, model, calibration, record);
+    }
+    if (!body.stands_in || body.misfit > hardly_more * noise) {
+        try_duhem(&body, model, start, calibration, record);
+    }
+    if (!body.stands_in && start == START_NEGATIVE_SATURATION) {
         add_everett(&body, model, calibration, record);
     }
     return body;

@@ -2,23 +2,25 @@
 #ifndef HYST_HOST_DIAGNOSE_BODY_H
 #define HYST_HOST_DIAGNOSE_BODY_H
 
-#include "duhem.h"
 #include "nuisance.h"
 #include "record.h"
+#include "stand_in.h"
 
 typedef struct {
-    double misfit; ///< RMS of what the body leaves of the calibration, noise included [output]
-    double noise;  ///< the calibration's own, white part [output]
-    bool is_duhem; ///< `duhem` stands in for the model's plays
-    duhem_t duhem;
+    double misfit;  ///< RMS of what the body leaves of the calibration, noise included [output]
+    double noise;   ///< the calibration's own, white part [output]
+    bool stands_in; ///< `stand_in` does for the model's plays
+    stand_in_t stand_in;
+    double doubt; ///< mean square by which it may be off on the record, in parts of what it differs from the
+                  ///< model by
     double*
         correction; ///< [record's samples] what the body adds to the model's output on the record, or NULL
     nuisance_t nuisance; ///< on the record
 } body_t;
 
-/// A Duhem body where that leaves clearly less of the calibration than the model, and no more of the record;
-/// else the model's plays and what a Preisach body would add. model_misfit: RMS of what the model leaves of
-/// the calibration; noise likewise.
+/// An element or a Duhem body where that leaves clearly less of the calibration than the model, and no more
+/// of the record; else the model's plays and what a Preisach body would add. model_misfit: RMS of what the
+/// model leaves of the calibration; noise likewise.
 body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,
                  double noise, const record_t* record);
 void body_free(body_t* body);

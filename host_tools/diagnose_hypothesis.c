@@ -1,5 +1,6 @@
 #include "diagnose_hypothesis.h"
 
+#include "bounded.h"
 #include <cminpack.h>
 #include <math.h>
 #include <stdlib.h>
@@ -110,7 +111,7 @@ void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
 /// One free number of the search: a parameter within its bounds.
 typedef struct {
     double* value;
-    effect_limits_t limits;
+    bounds_t bounds;
 } free_t;
 
 typedef struct {
@@ -126,26 +127,6 @@ typedef struct {
     double* simulated; ///< [num_samples]
 } search_t;
 
-/// A bounded parameter as an unbounded number: its place between the bounds, over a sine, so that a bound can
-/// be reached.
-static double to_theta(const free_t* f)
-{
-    const bool logarithmic = f->limits.logarithmic;
-    const double low = logarithmic ? log(f->limits.low) : f->limits.low;
-    const double high = logarithmic ? log(f->limits.high) : f->limits.high;
-    const double value = logarithmic ? log(fmax(*f->value, f->limits.low)) : *f->value;
-    return asin(fmin(fmax(2 * (value - low) / (high - low) - 1, -0.999), 0.999));
-}
-
-static void from_theta(const free_t* f, double theta)
-{
-    const bool logarithmic = f->limits.logarithmic;
-    const double low = logarithmic ? log(f->limits.low) : f->limits.low;
-    const double high = logarithmic ? log(f->limits.high) : f->limits.high;
-    const double value = low + (high - low) * 0.5 * (1 + sin(theta));
-    *f->value = logarithmic ? exp(value) : value;
-}
-
 static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_out)
 {
     search_t s = {.gap = gap, .hypothesis = hypothesis, .held_out = held_out, .rest_only = true};
@@ -155,7 +136,8 @@ static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_
         for (size_t p = 0; p < use->effect->num_parameters; p++) {
             free_t* f = &s.free[s.num_free++];
             f->value = &use->parameter[p];
-            f->limits = effect_use_limits(gap->run, use, p);
+            const effect_limits_t limits = effect_use_limits(gap->run, use, p);
+            f->bounds = (bounds_t){limits.low, limits.high, limits.logarithmic};
         }
     }
     s.filter = &gap->filter[held_out < 0 ? HYPOTHESIS_FOLDS : held_out];
@@ -234,7 +216,7 @@ static int minpack_residual(void* context, int m, int n, const double* theta, do
     (void)task;
     search_t* s = context;
     for (int i = 0; i < n; i++) {
-        from_theta(&s->free[i], theta[i]);
+        *s->free[i].value = bounded_from_free(s->free[i].bounds, theta[i]);
     }
     residual_of(s, residual);
     keep_fitted(s, residual);
@@ -265,7 +247,7 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
         int pivot[MAX_THETA];
         int evaluations = 0;
         for (size_t i = 0; i < n; i++) {
-            theta[i] = to_theta(&s.free[i]);
+            theta[i] = bounded_to_free(s.free[i].bounds, *s.free[i].value);
         }
         double* vectors = residual + m;
         double* jacobian = vectors + m;
@@ -275,7 +257,7 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
               1, 1, 0, &evaluations, jacobian, (int)m, pivot, v + n, v + 2 * n, v + 3 * n, v + 4 * n,
               vectors);
         for (size_t i = 0; i < n; i++) {
-            from_theta(&s.free[i], theta[i]);
+            *s.free[i].value = bounded_from_free(s.free[i].bounds, theta[i]);
         }
     }
     for (size_t i = 0; i < hypothesis->num_uses; i++) {

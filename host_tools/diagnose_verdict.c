@@ -12,8 +12,6 @@ static const double part_to_gain = 0.4;
 /// Grain in parts of floor and gap.
 static const double floor_grain = 0.2;
 static const double gap_grain = 4e-3;
-/// How much a body that stood in for the plays may itself be off, in parts of its correction's energy.
-static const double correction_doubt = 0.05;
 /// Where one effect alone leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 2;
 /// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are
@@ -21,12 +19,12 @@ static const double floor_over_least = 2;
 static const double sharpness = 8;
 static const double prior = 0.3;
 
-scale_t scale_new(double noise, double misfit, double correction, double gap)
+scale_t scale_new(double noise, double misfit, double doubt, double gap)
 {
     const double known = fmax(misfit, noise);
     scale_t scale = {.noise = noise, .known = known};
     // A body misfits more on other work than on its calibration (THEORY section 6).
-    scale.floor = known + (known - noise) + correction_doubt * correction;
+    scale.floor = known + (known - noise) + doubt;
     scale.grain = floor_grain * scale.floor + gap_grain * gap;
     return scale;
 }

@@ -14,9 +14,9 @@ typedef struct {
     double grain; ///< differences below it do not count
 } scale_t;
 
-/// misfit: mean square of what the body leaves of its calibration. correction: mean square of what the body
-/// differs from the model by on the record. gap: mean square of what the body leaves of the record.
-scale_t scale_new(double noise, double misfit, double correction, double gap);
+/// misfit: mean square of what the body leaves of its calibration. doubt: mean square by which
+/// the body may be off on the record. gap: mean square of what the body leaves of the record.
+scale_t scale_new(double noise, double misfit, double doubt, double gap);
 /// Lowers the floor to what the record allows. least: the smallest mean square that a hypothesis with at most
 /// one effect leaves.
 void scale_lower(scale_t* scale, double least);

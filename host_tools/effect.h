@@ -8,12 +8,12 @@
 #ifndef HYST_HOST_EFFECT_H
 #define HYST_HOST_EFFECT_H
 
-#include "duhem.h"
 #include "fast_plays.h"
 #include "hysteresis.h"
 #include "message.h"
 #include "model.h"
 #include "record.h"
+#include "stand_in.h"
 #include <stdbool.h>
 
 typedef enum { EFFECT_DRIVE, EFFECT_HYSTERESIS, EFFECT_BODY, EFFECT_SENSOR } effect_stage_t;
@@ -33,8 +33,8 @@ typedef struct {
     double travel;                 ///< the sum of |d input|
     double largest_radius;         ///< of a play that the model's range can move, envelope units
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
-    const duhem_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they do
-                         ///< on the model's; or NULL
+    const stand_in_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they
+                            ///< do on the model's; or NULL
     const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
 } effect_run_t;
 

@@ -222,7 +222,7 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
                      const double* drive, double* output)
 {
     if (hysteresis_is_neutral(hysteresis)) {
-        duhem_run(run->body, model, start, 0, drive, run->num_samples, output);
+        stand_in_run(run->body, model, start, 0, drive, run->num_samples, output);
         return;
     }
     const hysteresis_t neutral = hysteresis_neutral();
@@ -237,7 +237,7 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
         hysteresis->start_fraction = NULL;
     }
     run_plays(run, model, start, hysteresis, drive, output);
-    duhem_run(run->body, model, start, shift, drive, run->num_samples, body);
+    stand_in_run(run->body, model, start, shift, drive, run->num_samples, body);
     for (size_t i = 0; i < run->num_samples; ++i) {
         output[i] += body[i] - plain[i];
     }

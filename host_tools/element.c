@@ -1,0 +1,161 @@
+#include "element.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/// Of the input's range, the largest move that is one step of the midpoint rule.
+static const double longest_step = 0.01;
+/// Of the pinning, what the denominator of the wall's slope may not fall below: the walls then jump.
+static const double least_pinning = 0.02;
+
+static double bouc_wen_slope(const element_t* e, double z, bool rising)
+{
+    double pull = 1;
+    if (z > 0) {
+        pull = rising ? 1 : e->shape[BOUC_WEN_FALLING_BACK];
+    } else {
+        pull = rising ? e->shape[BOUC_WEN_RISING_BACK] : e->shape[BOUC_WEN_FALLING];
+    }
+    // The force never falls while the way it opposes grows.
+    return e->shape[BOUC_WEN_STEEPNESS] * fmax(1 - pow(fabs(z), e->shape[BOUC_WEN_ORDER]) * pull, 0);
+}
+
+/// Where in a step its slope is taken, in parts of the step.
+static double moment(const element_t* e, size_t ahead)
+{
+    return 0.5 * (1 + e->ahead[ahead]);
+}
+
+static void bouc_wen_move(element_state_t* s, double move)
+{
+    const bool rising = move > 0;
+    const double slope = bouc_wen_slope(s->element, s->inner, rising);
+    const double then = s->inner + moment(s->element, 1) * move * slope;
+    s->inner += move * bouc_wen_slope(s->element, then, rising);
+    s->state = s->inner;
+}
+
+static double langevin(double x)
+{
+    return fabs(x) < 1e-2 ? x / 3 - x * x * x / 45 : 1 / tanh(x) - 1 / x;
+}
+
+static double ideal_at(const element_t* e, double part, double magnetisation)
+{
+    const double field = 2 * part - 1 - e->shape[ATHERTON_CENTRE];
+    return langevin((field + e->shape[ATHERTON_COUPLING] * magnetisation) / e->shape[ATHERTON_SHAPE]);
+}
+
+static double magnetisation(const element_t* e, double ideal, double wall)
+{
+    return e->shape[ATHERTON_BOWING] * ideal + (1 - e->shape[ATHERTON_BOWING]) * wall;
+}
+
+static double wall_slope(const element_t* e, double ideal, double wall, bool rising)
+{
+    const double lack = rising ? ideal - wall : wall - ideal;
+    const double pinning = e->shape[ATHERTON_PINNING];
+    const double stiff = fmax(pinning - e->shape[ATHERTON_COUPLING] * lack, least_pinning * pinning);
+    return lack > 0 ? 2 * lack / stiff : 0;
+}
+
+static void atherton_move(element_state_t* s, double move)
+{
+    const element_t* e = s->element;
+    const bool rising = move > 0;
+    const double slope = wall_slope(e, ideal_at(e, s->part, s->state), s->inner, rising);
+    const double wall = s->inner + moment(e, 1) * move * slope;
+    const double part = s->part + moment(e, 0) * move;
+    const double then = magnetisation(e, ideal_at(e, part, s->state), wall);
+    s->inner += move * wall_slope(e, ideal_at(e, part, then), wall, rising);
+    const double guess = magnetisation(e, ideal_at(e, s->part + move, then), s->inner);
+    s->state = magnetisation(e, ideal_at(e, s->part + move, guess), s->inner);
+}
+
+static double move_to(element_state_t* s, double part)
+{
+    const double way = part - s->part;
+    const size_t pieces = 1 + (size_t)(fabs(way) / longest_step);
+    const double move = way / (double)pieces;
+    for (size_t k = 0; (way > 0 || way < 0) && k < pieces; k++) {
+        if (s->element->kind == ELEMENT_BOUC_WEN) {
+            bouc_wen_move(s, move);
+        } else {
+            atherton_move(s, move);
+        }
+        s->part += move;
+    }
+    s->part = part;
+    return s->state;
+}
+
+element_state_t element_saturated(const element_t* element)
+{
+    element_state_t s = {.element = element};
+    (void)move_to(&s, 1);
+    (void)move_to(&s, 0);
+    return s;
+}
+
+double element_step(element_state_t* s, double input)
+{
+    const element_t* e = s->element;
+    return move_to(s, fmin(fmax((input - e->input_min) / (e->input_max - e->input_min), 0), 1));
+}
+
+void element_splines(double part, double* spline)
+{
+    enum { INTERVALS = ELEMENT_CURVE - 3 };
+    const double place = part * INTERVALS;
+    const size_t i = place < INTERVALS - 1 ? (size_t)place : INTERVALS - 1;
+    const double b = place - (double)i;
+    const double a = 1 - b;
+    for (size_t k = 0; k < ELEMENT_CURVE; k++) {
+        spline[k] = 0;
+    }
+    spline[i] = a * a * a / 6;
+    spline[i + 1] = (1 + 3 * a * (1 + a * b)) / 6;
+    spline[i + 2] = (1 + 3 * b * (1 + a * b)) / 6;
+    spline[i + 3] = b * b * b / 6;
+}
+
+static double curve_at(const element_t* e, double part)
+{
+    double spline[ELEMENT_CURVE];
+    element_splines(part, spline);
+    double sum = 0;
+    for (size_t k = 0; k < ELEMENT_CURVE; k++) {
+        sum += spline[k] * e->curve[k];
+    }
+    return sum;
+}
+
+/// Where the state gives this output at the present input.
+static void place(element_state_t* s, double output)
+{
+    const element_t* e = s->element;
+    s->state = (output - curve_at(e, s->part)) / e->gain;
+    s->inner = s->state;
+    if (e->kind == ELEMENT_JILES_ATHERTON) {
+        const double ideal = ideal_at(e, s->part, s->state);
+        s->inner = (s->state - e->shape[ATHERTON_BOWING] * ideal) / (1 - e->shape[ATHERTON_BOWING]);
+    }
+}
+
+static double output_of(const element_state_t* s)
+{
+    return s->element->gain * s->state + curve_at(s->element, s->part);
+}
+
+void element_run(const element_t* element, double shift, const double* input, size_t num_samples,
+                 double* output)
+{
+    element_state_t s = element_saturated(element);
+    for (size_t t = 0; t < num_samples; t++) {
+        (void)element_step(&s, input[t]);
+        if (t == 0 && (shift > 0 || shift < 0)) {
+            place(&s, output_of(&s) + shift);
+        }
+        output[t] = output_of(&s);
+    }
+}

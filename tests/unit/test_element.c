@@ -1,0 +1,214 @@
+#include "bounded.h"
+#include "element_fit.h"
+#include "model.h"
+#include "random.h"
+#include <math.h>
+#include <stdlib.h>
+#include <unity.h>
+
+enum { SAMPLES = 3000, FINE = 100 };
+
+static const double noise = 0.002;
+static double input[SAMPLES];
+static double output[SAMPLES];
+static double predicted[SAMPLES];
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+/// Up and down through the range, then random reversals.
+static void make_input(uint64_t seed)
+{
+    random_t random = random_new(seed);
+    double v = 0;
+    double target = 1;
+    size_t turns = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        input[t] = 40 + 20 * v;
+        v += fmin(fmax(target - v, -0.01), 0.01);
+        if (fabs(target - v) <= 0) {
+            turns++;
+            target = turns == 1 ? 0 : turns == 2 ? 1 : random_uniform(&random, 0, 1);
+        }
+    }
+}
+
+/// What is beside the element: smooth, increasing, of no spline.
+static double reversible(double x)
+{
+    return 0.4 * atan(2 * (x - 0.4));
+}
+
+/// Explicit Euler in FINE steps a sample.
+typedef struct {
+    double x, z, wall;
+} plant_t;
+
+static double bouc_wen(plant_t* p, double x)
+{
+    const double move = (x - p->x) / FINE;
+    for (size_t k = 0; k < FINE; k++) {
+        p->z += move *
+                (6 - pow(fabs(p->z), 1.3) * (4 * (move * p->z > 0 ? 1 : -1) + 1.5 + (move > 0 ? 0.4 : -0.4)));
+    }
+    p->x = x;
+    return x - p->z / 9;
+}
+
+static double jiles_atherton(plant_t* p, double x)
+{
+    const double move = (x - p->x) / FINE;
+    for (size_t k = 0; k < FINE; k++) {
+        p->x += move;
+        const double effective = (2 * p->x - 1 + 0.08 * p->z) / 0.25;
+        const double ideal = 1 / tanh(effective) - 1 / effective;
+        const double lack = ideal - p->wall;
+        if (lack * move > 0) {
+            p->wall += 2 * move * lack / (0.2 * (move > 0 ? 1 : -1) - 0.08 * lack);
+        }
+        p->z = 0.2 * ideal + 0.8 * p->wall;
+    }
+    return 0.4 * p->z;
+}
+
+typedef double plant_step_t(plant_t* plant, double x);
+
+static void run_plant(plant_step_t* step)
+{
+    plant_t p = {0};
+    // From a first rise down to the range's foot.
+    for (int k = 1; k <= 200; k++) {
+        (void)step(&p, 1 - fabs((double)k / 100 - 1));
+    }
+    for (size_t t = 0; t < SAMPLES; t++) {
+        const double x = (input[t] - 40) / 20;
+        output[t] = 5 * (step(&p, x) + reversible(x));
+    }
+}
+
+static double rms_error(void)
+{
+    double sum = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        sum += (predicted[t] - output[t]) * (predicted[t] - output[t]) / SAMPLES;
+    }
+    return sqrt(sum);
+}
+
+static element_record_t calibrate(plant_step_t* step)
+{
+    random_t random = random_new(9);
+    make_input(1);
+    run_plant(step);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] += 5 * noise * random_normal(&random);
+    }
+    return (element_record_t){.input = input,
+                              .output = output,
+                              .num_samples = SAMPLES,
+                              .input_min = 40,
+                              .input_max = 60,
+                              .noise = 5 * noise};
+}
+
+/// Of a calibration of its kind it leaves the noise, whose RMS over this many samples is known to 1/sqrt(2 n)
+/// (four of those are asked); on an input that it has not seen, the error of ELEMENT_FREE fitted numbers is
+/// sqrt(ELEMENT_FREE / n) of the noise where the two inputs go alike (three of those are asked).
+static void check_kind(element_kind_t kind, plant_step_t* step)
+{
+    const element_record_t record = calibrate(step);
+    double rmse;
+    const element_t element = element_fit(kind, &record, &rmse);
+    TEST_ASSERT_DOUBLE_WITHIN(4 * record.noise / sqrt(2.0 * SAMPLES), record.noise, rmse);
+    make_input(2);
+    run_plant(step);
+    element_run(&element, 0, input, SAMPLES, predicted);
+    TEST_ASSERT_TRUE(rms_error() < 3 * record.noise * sqrt((double)ELEMENT_FREE / SAMPLES));
+    double other;
+    (void)element_fit(ELEMENT_KINDS - 1 - kind, &record, &other);
+    TEST_ASSERT_TRUE(other > rmse);
+}
+
+static void test_a_bouc_wen_element_is_found(void)
+{
+    check_kind(ELEMENT_BOUC_WEN, bouc_wen);
+}
+
+static void test_a_jiles_atherton_element_is_found(void)
+{
+    check_kind(ELEMENT_JILES_ATHERTON, jiles_atherton);
+}
+
+/// Gain and curve are linear, so their derivatives are differences to rounding; shapes' are taken as
+/// differences of one side, which a ten times smaller step of the other side meets to first order.
+static void test_derivatives_are_those_of_the_output(void)
+{
+    const element_record_t record = calibrate(jiles_atherton);
+    double rmse;
+    const element_t element = element_fit(ELEMENT_JILES_ATHERTON, &record, &rmse);
+    double* derivatives = xmalloc(SAMPLES * ELEMENT_FREE * sizeof *derivatives);
+    element_derivatives(&element, input, SAMPLES, derivatives);
+    element_run(&element, 0, input, SAMPLES, output);
+    for (size_t k = 0; k < ELEMENT_FREE - ELEMENT_AHEAD; k++) {
+        element_t moved = element;
+        double* number = k < ELEMENT_SHAPES    ? &moved.shape[k]
+                         : k == ELEMENT_SHAPES ? &moved.gain
+                                               : &moved.curve[k - ELEMENT_SHAPES - 1];
+        const double step = k < ELEMENT_SHAPES ? -1e-6 : 1;
+        *number += step;
+        element_run(&moved, 0, input, SAMPLES, predicted);
+        double largest = 0;
+        for (size_t t = 0; t < SAMPLES; t++) {
+            largest = fmax(largest, fabs(derivatives[t * ELEMENT_FREE + k]));
+        }
+        const double bound = k < ELEMENT_SHAPES ? 0.02 * largest : 1e-9;
+        for (size_t t = 0; t < SAMPLES; t += 7) {
+            TEST_ASSERT_DOUBLE_WITHIN(bound, derivatives[t * ELEMENT_FREE + k],
+                                      (predicted[t] - output[t]) / step);
+        }
+    }
+    free(derivatives);
+}
+
+/// Out of range it stays at the ends; a shift of the start moves the first output by as much and is then
+/// forgotten on the way to saturation.
+static void test_ends_and_start(void)
+{
+    const element_record_t record = calibrate(bouc_wen);
+    double rmse;
+    const element_t element = element_fit(ELEMENT_BOUC_WEN, &record, &rmse);
+    const double beyond[] = {30, 90, 60, 60};
+    double from_ends[4];
+    double shifted[4];
+    element_run(&element, 0, beyond, 4, from_ends);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, from_ends[1], from_ends[2]);
+    element_run(&element, 0.1, beyond, 4, shifted);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, from_ends[0] + 0.1, shifted[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, from_ends[3], shifted[3]);
+}
+
+static void test_bounded_numbers_come_back(void)
+{
+    const bounds_t linear = {-2, 3, false};
+    const bounds_t logarithmic = {0.01, 100, true};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.7, bounded_from_free(linear, bounded_to_free(linear, 0.7)));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.7, bounded_from_free(logarithmic, bounded_to_free(logarithmic, 0.7)));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3, bounded_from_free(linear, asin(1)));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, -2, bounded_from_free(linear, bounded_to_free(linear, -9)));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_bouc_wen_element_is_found);
+    RUN_TEST(test_a_jiles_atherton_element_is_found);
+    RUN_TEST(test_derivatives_are_those_of_the_output);
+    RUN_TEST(test_ends_and_start);
+    RUN_TEST(test_bounded_numbers_come_back);
+    return UNITY_END();
+}
