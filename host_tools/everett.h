@@ -7,7 +7,7 @@
 #include "model.h"
 
 enum {
-    EVERETT_CELLS = 14,                                      ///< over the input's range
+    EVERETT_CELLS = 20,                                      ///< over the input's range
     EVERETT_NODES = EVERETT_CELLS * (EVERETT_CELLS + 1) / 2, ///< alpha > beta; E(alpha, alpha) = 0
     EVERETT_FREE = EVERETT_NODES + 1,                        ///< and a constant
     EVERETT_MOST_EXTREMES = 64                               ///< that are remembered
