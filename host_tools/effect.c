@@ -15,6 +15,8 @@ static const effect_t* const catalogue[] = {
     &effect_noncongruency_product,
     &effect_noncongruency_moving,
     &effect_noncongruency_increment,
+    &effect_noncongruency_remanence_field,
+    &effect_noncongruency_remanence_stiffness,
     &effect_wear_amplitude,
     &effect_wear_increment,
     &effect_wear_response,

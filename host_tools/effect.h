@@ -32,6 +32,7 @@ typedef struct {
     double input_rate;             ///< the largest |d input/dt| between two samples
     double travel;                 ///< the sum of |d input|
     double largest_radius;         ///< of a play that the model's range can move, envelope units
+    const loop_middle_t* middle;   ///< of the model
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
     const duhem_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they do
                          ///< on the model's; or NULL

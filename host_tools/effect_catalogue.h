@@ -15,6 +15,8 @@ extern const effect_t effect_creep_delayed;
 extern const effect_t effect_noncongruency_increment;
 extern const effect_t effect_noncongruency_product;
 extern const effect_t effect_noncongruency_moving;
+extern const effect_t effect_noncongruency_remanence_field;
+extern const effect_t effect_noncongruency_remanence_stiffness;
 extern const effect_t effect_wear_increment;
 extern const effect_t effect_wear_amplitude;
 extern const effect_t effect_wear_response;

@@ -54,7 +54,8 @@ effect_run_t effect_run_new(const model_t* model, const record_t* record)
                         .input_span = model->input_max - model->input_min,
                         .output_min = model_output_min(model),
                         .output_max = model_output_max(model),
-                        .largest_radius = model_largest_moving_radius(model)};
+                        .largest_radius = model_largest_moving_radius(model),
+                        .middle = loop_middle_new(model)};
     if (record->time == NULL) {
         double* seconds = xcalloc(count, sizeof(double));
         for (size_t i = 0; i < count; ++i) {
@@ -82,6 +83,7 @@ void effect_run_free(effect_run_t* run)
     if (run->record != NULL && run->time != run->record->time) {
         free((void*)(uintptr_t)run->time);
     }
+    loop_middle_free((loop_middle_t*)(uintptr_t)run->middle);
     *run = (effect_run_t){0};
 }
 
@@ -183,6 +185,7 @@ static void apply_stage(const effect_run_t* run, const effect_use_t* uses, size_
 hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses, size_t num_uses)
 {
     hysteresis_t hysteresis = hysteresis_neutral();
+    hysteresis.middle = run->middle;
     for (size_t u = 0; u < num_uses; ++u) {
         if (uses[u].effect->configure != NULL) {
             double* column = centred_column(run, &uses[u]);
@@ -255,6 +258,10 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     double* drive = memcpy(xmalloc(size), run->input, size);
     apply_stage(run, uses, num_uses, EFFECT_DRIVE, drive);
     hysteresis_t hysteresis = effect_hysteresis(run, uses, num_uses);
+    // Acts on the whole output, whatever body gives it.
+    const hysteresis_t stiffness = {.remanence_stiffness = hysteresis.remanence_stiffness,
+                                    .middle = hysteresis.middle};
+    hysteresis.remanence_stiffness = 0.0;
     if (run->body != NULL) {
         run_body(run, model, start, &hysteresis, drive, output);
     } else {
@@ -262,6 +269,9 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     }
     for (size_t i = 0; run->correction != NULL && i < run->num_samples; ++i) {
         output[i] += run->correction[i];
+    }
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        output[i] = hysteresis_stiffened(&stiffness, model, drive[i], output[i]);
     }
     hysteresis_free(&hysteresis);
     free(drive);

@@ -25,6 +25,7 @@ bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
     return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) &&
            !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
            !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
+           !differs(hysteresis->remanence_field) && !differs(hysteresis->remanence_stiffness) &&
            hysteresis->width == NULL && hysteresis->start_fraction == NULL;
 }
 
@@ -152,18 +153,26 @@ static void move_plays(const hysteresis_state_t* state, double v, double step, d
 static double shift(const hysteresis_state_t* state, double v, double sum)
 {
     const double half_range = 0.5 * (state->model->input_max - state->model->input_min);
-    const double part = fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
-    return v + state->hysteresis->moving * half_range * part;
+    const hysteresis_t* hysteresis = state->hysteresis;
+    double part = 0.0;
+    if (differs(hysteresis->moving) && state->sum_half > 0.0) {
+        part += hysteresis->moving * fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
+    }
+    if (differs(hysteresis->remanence_field)) {
+        const double output = curve_value(&state->model->nonhysteretic, v) + sum;
+        part += hysteresis->remanence_field * loop_middle_remanence(hysteresis->middle, v, output);
+    }
+    return v + half_range * part;
 }
 
-/// The moving model's input: v shifted by what the plays give at that very input. A secant search of the
+/// The input within a mean field: v shifted by what the plays give at that very input. A secant search of the
 /// fixed point; between the plays' kinks the sum is nearly linear, so few steps do. It is unique where
-/// |moving| times the loop's relative steepness is below 1.
+/// the field's factor times the loop's relative steepness is below 1.
 static double shifted(const hysteresis_state_t* state, double v, double step)
 {
     enum { ITERATIONS = 30 };
     const model_t* model = state->model;
-    if (!differs(state->hysteresis->moving) || !(state->sum_half > 0.0)) {
+    if (!differs(state->hysteresis->moving) && !differs(state->hysteresis->remanence_field)) {
         return v;
     }
     const double tolerance = 1e-13 * (model->input_max - model->input_min);
@@ -224,6 +233,15 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     return next;
 }
 
+double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model, double v, double y)
+{
+    if (!differs(hysteresis->remanence_stiffness)) {
+        return y;
+    }
+    const double factor = hysteresis->remanence_stiffness * level(model, v);
+    return y + factor * (y - loop_middle_at(hysteresis->middle, v));
+}
+
 static double output_at(const hysteresis_state_t* state, double v, const outlook_t* at)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
@@ -231,7 +249,7 @@ static double output_at(const hysteresis_state_t* state, double v, const outlook
     if (differs(hysteresis->level_product) || differs(hysteresis->fade)) {
         output += (amplitude_factor(state, v, at->travel) - 1.0) * (at->sum - state->sum_middle);
     }
-    return output;
+    return hysteresis_stiffened(hysteresis, state->model, v, output);
 }
 
 /// initial_state: each play between its strip's bottom, its own start and its strip's top by a fraction that
@@ -354,7 +372,8 @@ double hysteresis_inverse(const hysteresis_state_t* state, double wanted, double
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis)
 {
     return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) && !differs(hysteresis->moving) &&
-           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+           !differs(hysteresis->remanence_field) && hysteresis->width == NULL &&
+           hysteresis->start_fraction == NULL;
 }
 
 void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
@@ -374,6 +393,7 @@ void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, 
         }
         nonhysteretic[i] += sum[i] + correction +
                             (amplitude_factor(&state, input[i], travel) - 1.0) * (sum[i] - state.sum_middle);
+        nonhysteretic[i] = hysteresis_stiffened(hysteresis, model, input[i], nonhysteretic[i]);
     }
 }
 

@@ -3,6 +3,7 @@
 #ifndef HYST_HOST_HYSTERESIS_H
 #define HYST_HOST_HYSTERESIS_H
 
+#include "loop_middle.h"
 #include "model.h"
 
 /// What effects set; hysteresis_neutral() does nothing.
@@ -14,6 +15,9 @@ typedef struct {
         level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
     double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
+    double remanence_field; ///< the plays see v + remanence_field * half range * the output's remanence
+    double remanence_stiffness; ///< the output, about the major loop's middle, scales by 1 + this * level
+    const loop_middle_t* middle; ///< for the two above; NULL where both are 0
     double wear;   ///< the plays' sum moves exp(-wear * travel / input_span) as far
     double fade;   ///< the plays' sum, about its middle, scales by exp(-fade * travel / input_span)
     double* width; ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
@@ -28,6 +32,8 @@ bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
 void hysteresis_free(hysteresis_t* hysteresis);
 /// Whether the plays themselves run as in the plain model and only what becomes of their sum differs.
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
+/// What remanence_stiffness makes of an output y at v.
+double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model, double v, double y);
 /// The output of such a run whose plays' sums are known: sum[num_samples], nonhysteretic[num_samples],
 /// overwritten with the output.
 void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
