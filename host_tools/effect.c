@@ -10,6 +10,8 @@ static const effect_t* const catalogue[] = {
     &effect_slew_limit,
     &effect_rate_dependence_play_lag,
     &effect_rate_dependence_widening,
+    &effect_rate_dependence_diffusion,
+    &effect_rate_dependence_excess,
     &effect_creep_additional,
     &effect_creep_delayed,
     &effect_noncongruency_product,

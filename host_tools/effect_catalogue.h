@@ -10,6 +10,8 @@ extern const effect_t effect_input_lag;
 extern const effect_t effect_slew_limit;
 extern const effect_t effect_rate_dependence_play_lag;
 extern const effect_t effect_rate_dependence_widening;
+extern const effect_t effect_rate_dependence_diffusion;
+extern const effect_t effect_rate_dependence_excess;
 extern const effect_t effect_creep_additional;
 extern const effect_t effect_creep_delayed;
 extern const effect_t effect_noncongruency_increment;

@@ -10,6 +10,7 @@ struct loop_middle {
     double input_min, half_range;
     double half_span; ///< of the model's output between its saturations
     double node[CELLS + 1];
+    double reversible[CELLS + 1]; ///< -1 ... 1
 };
 
 /// Both branches in closed form: from a saturation no play has turned, Eq. (6) is one maximum or minimum.
@@ -29,6 +30,15 @@ static double middle_of(const model_t* model, double v)
     return sum;
 }
 
+static double reversible_of(const model_t* model, double v)
+{
+    const double low = curve_value(&model->nonhysteretic, model->input_min);
+    const double high = curve_value(&model->nonhysteretic, model->input_max);
+    const double part = high > low ? (curve_value(&model->nonhysteretic, v) - low) / (high - low)
+                                   : (v - model->input_min) / (model->input_max - model->input_min);
+    return 2 * part - 1;
+}
+
 loop_middle_t* loop_middle_new(const model_t* model)
 {
     loop_middle_t* middle = xmalloc(sizeof *middle);
@@ -36,7 +46,9 @@ loop_middle_t* loop_middle_new(const model_t* model)
     middle->half_range = 0.5 * (model->input_max - model->input_min);
     middle->half_span = 0.5 * (model_output_max(model) - model_output_min(model));
     for (size_t i = 0; i <= CELLS; i++) {
-        middle->node[i] = middle_of(model, model->input_min + 2 * middle->half_range * (double)i / CELLS);
+        const double v = model->input_min + 2 * middle->half_range * (double)i / CELLS;
+        middle->node[i] = middle_of(model, v);
+        middle->reversible[i] = reversible_of(model, v);
     }
     return middle;
 }
@@ -46,12 +58,25 @@ void loop_middle_free(loop_middle_t* middle)
     free(middle);
 }
 
+static double at(const double* node, double place)
+{
+    const size_t cell = (size_t)fmin(fmax(place, 0), CELLS - 1);
+    return node[cell] + (place - (double)cell) * (node[cell + 1] - node[cell]);
+}
+
+static double place_of(const loop_middle_t* middle, double v)
+{
+    return (v - middle->input_min) / (2 * middle->half_range) * CELLS;
+}
+
 double loop_middle_at(const loop_middle_t* middle, double v)
 {
-    const double place = (v - middle->input_min) / (2 * middle->half_range) * CELLS;
-    const size_t cell = (size_t)fmin(fmax(place, 0), CELLS - 1);
-    const double part = place - (double)cell;
-    return middle->node[cell] + part * (middle->node[cell + 1] - middle->node[cell]);
+    return at(middle->node, place_of(middle, v));
+}
+
+double loop_middle_reversible(const loop_middle_t* middle, double v)
+{
+    return fmin(fmax(at(middle->reversible, place_of(middle, v)), -1), 1);
 }
 
 double loop_middle_remanence(const loop_middle_t* middle, double v, double y)
