@@ -301,8 +301,9 @@ static void run_hysteresis(const effect_run_t* run, const model_t* model, start_
 }
 
 /// A mean field for searches: what the output adds to what the body sees, to the output that it then gives,
-/// until it stays. A play's states move no further than its input did, so where the field's loop gain is
-/// below 1 this contracts; it need not go beyond the cells of the searches' tables.
+/// until it stays; the first sample is the start's, without it. A play's states move no further than its
+/// input did, so where the field's loop gain is below 1 this contracts; it need not go beyond the cells of
+/// the searches' tables.
 static void run_mean_field(const effect_run_t* run, const model_t* model, start_t start,
                            const hysteresis_t* hysteresis, const double* drive, double* output)
 {
@@ -316,7 +317,7 @@ static void run_mean_field(const effect_run_t* run, const model_t* model, start_
     for (int i = 0; i < ITERATIONS && change > enough; ++i) {
         run_hysteresis(run, model, start, &inner, drive, output);
         change = 0.0;
-        for (size_t t = 0; t < run->num_samples; ++t) {
+        for (size_t t = 1; t < run->num_samples; ++t) {
             const double next = hysteresis_remanent_shift(hysteresis, model, drive[t], output[t]);
             change = fmax(change, fabs(next - shift[t]));
             shift[t] = next;

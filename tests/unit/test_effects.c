@@ -205,10 +205,10 @@ static void uneven_samples_give_the_same(void)
     same_at_any_sample_rate((const double[]){0.03, 0.4, 0.9}, 3);
 }
 
-/// A search's run is the plain one but for its tables, which are off by h^2/8 |curve''| <= 1e-7 a play in cells
-/// of h = 1/1024, and a mean field, which ends when an iteration changes what the plays see by less than 1e-5
-/// of the range: with a loop gain below a half the rest is no more, and the output follows it with its
-/// steepest slope. Where a sample hits another side of a step of `quantization`, a step.
+/// A search's run is the plain one but for its tables, which are off by h^2/8 |curve''| <= 1e-7 a play in
+/// cells of h = 1/1024, and a mean field, which ends when an iteration changes what the plays see by less
+/// than 1e-5 of the range: with a loop gain below a half the rest is no more, and the output follows it with
+/// its steepest slope. Where a sample hits another side of a step of `quantization`, a step.
 static void searches_run_the_same(void)
 {
     fast_plays_t* fast = fast_plays_new(&model, START_NEGATIVE_SATURATION);
@@ -221,9 +221,13 @@ static void searches_run_the_same(void)
         search.fast = fast;
         effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, plain);
         effect_simulate(&search, &model, START_NEGATIVE_SATURATION, &use, 1, output);
-        const double bound = fmax(of->gain, 1.4) * (8e-7 + 1e-5 * run.input_span * slope) +
-                             (rounds ? of->parameter[0] : 0.0);
-        TEST_ASSERT_TRUE_MESSAGE(largest_difference(plain, output, record.num_samples) <= bound, of->name);
+        const double bound =
+            fmax(of->gain, 1.4) * (8e-7 + 1e-5 * run.input_span * slope) + (rounds ? of->parameter[0] : 0.0);
+        const double difference = largest_difference(plain, output, record.num_samples);
+        char text[120];
+        (void)snprintf(text, sizeof text, "%s %s: %.3g above %.3g", of->name,
+                       of->mechanism != NULL ? of->mechanism : "", difference, bound);
+        TEST_ASSERT_TRUE_MESSAGE(difference <= bound, text);
     }
     fast_plays_free(fast);
 }
