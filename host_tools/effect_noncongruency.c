@@ -116,6 +116,7 @@ const effect_t effect_noncongruency_moving = {
     .parameter = moving_parameter,
     .limits = moving_limits,
     .configure = configure_moving,
+    .superseded = true,
 };
 
 const effect_t effect_noncongruency_increment = {
@@ -127,6 +128,7 @@ const effect_t effect_noncongruency_increment = {
     .parameter = gain_parameter,
     .limits = gain_limits,
     .configure = configure_increment,
+    .superseded = true,
 };
 
 const effect_t effect_noncongruency_remanence_field = {
