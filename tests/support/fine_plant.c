@@ -314,6 +314,9 @@ static double curved(const plant_t* plant, double y)
     double half;
     output_range(plant, &middle, &half);
     const double z = (y - middle) / half;
+    if (by(plant, "output_nonlinearity", "two_point")) {
+        return y + half * (1 - z * z) * (p[0] + p[1] * (0.5 - fabs(p[0])) * z);
+    }
     return y + half * (p[2] + p[3] * z + p[0] * z * z + p[1] * z * z * z);
 }
 
