@@ -14,6 +14,7 @@ static const effect_t* const catalogue[] = {
     &effect_rate_dependence_excess,
     &effect_creep_additional,
     &effect_creep_delayed,
+    &effect_creep_power_law,
     &effect_noncongruency_product,
     &effect_noncongruency_moving,
     &effect_noncongruency_increment,

@@ -14,6 +14,7 @@ extern const effect_t effect_rate_dependence_diffusion;
 extern const effect_t effect_rate_dependence_excess;
 extern const effect_t effect_creep_additional;
 extern const effect_t effect_creep_delayed;
+extern const effect_t effect_creep_power_law;
 extern const effect_t effect_noncongruency_increment;
 extern const effect_t effect_noncongruency_product;
 extern const effect_t effect_noncongruency_moving;

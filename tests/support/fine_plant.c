@@ -3,7 +3,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLAYS = 8, LAGS = 6, LAYERS = 10, STATES = 6, MOST_NODES = 10, MOST_UNKNOWNS = MOST_NODES + 2 };
+enum {
+    PLAYS = 8,
+    LAGS = 6,
+    POWER_LAGS = 60,
+    LAYERS = 10,
+    STATES = 6,
+    MOST_NODES = 10,
+    MOST_UNKNOWNS = MOST_NODES + 2
+};
 
 typedef struct {
     const char* name;
@@ -23,6 +31,7 @@ typedef struct {
     double sum, scaled, travel;
     double middle, half;
     double lag[LAGS];
+    double power[POWER_LAGS];
     double place, speed;
     double spline[MOST_UNKNOWNS];
     bool started;
@@ -224,6 +233,21 @@ static double worn(const plant_t* plant, double y)
     return pivot + (y - pivot) / exp(plant->p[0] * plant->travel / span);
 }
 
+/// (1 + t/onset)^order - 1 as a mixture of lags, ten a decade from a tenth of the onset on: the integral over
+/// ln(tau) of order / Gamma(1 - order) (tau/onset)^order exp(-onset/tau) (1 - exp(-t/tau)).
+static double power_creep(plant_t* plant, double y)
+{
+    const double* p = plant->p;
+    double sum = 0;
+    for (size_t k = 0; k < POWER_LAGS; ++k) {
+        const double tau = p[1] * exp(log(10.0) * ((double)k / 10 - 1));
+        const double density = p[2] / tgamma(1 - p[2]) * exp(p[2] * log(tau / p[1]) - p[1] / tau);
+        plant->power[k] += plant->dt / tau * (y - plant->place - plant->power[k]);
+        sum += p[0] * density * log(10.0) / 10 * plant->power[k];
+    }
+    return sum;
+}
+
 static double body(plant_t* plant, double y, double temperature)
 {
     if (!plant->started) {
@@ -244,6 +268,9 @@ static double body(plant_t* plant, double y, double temperature)
     }
     if (!is(plant, "creep")) {
         return y;
+    }
+    if (by(plant, "creep", "power_law")) {
+        return y + power_creep(plant, y);
     }
     double mean = 0;
     for (size_t k = 0; k < LAGS; ++k) {
