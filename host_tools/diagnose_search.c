@@ -66,7 +66,7 @@ static bool guess_parameters(const candidates_t* c, const double* predicted, eff
 static void add_single(candidates_t* c, const effect_t* effect, const char* column)
 {
     // How coarse a converter is stands in the record's own values (diagnose_grid.h).
-    if (c->count > MAX_SINGLES || strcmp(effect->name, "quantization") == 0) {
+    if (c->count > MAX_SINGLES || effect->superseded || strcmp(effect->name, "quantization") == 0) {
         return;
     }
     effect_use_t use = {.effect = effect};
@@ -175,6 +175,20 @@ static void try_extension(void* context, size_t index)
     e->fitted = from_start.fit_rmse < e->fitted.fit_rmse ? from_start : e->fitted;
 }
 
+/// Which mechanism of a name fits best beside another effect need not be the one that did alone.
+static void try_other_mechanisms(const candidates_t* c, const extension_t* e, hypothesis_t* best)
+{
+    for (size_t i = 1; i <= c->num_singles; i++) {
+        const hypothesis_t* other = &c->hypothesis[i];
+        if (other->use[0].effect != e->further->use[0].effect &&
+            hypothesis_names_use(other, &e->further->use[0])) {
+            hypothesis_t trial = joined(e->base, other);
+            hypothesis_fit(&trial, c->gap, -1, BRIEF_EVALUATIONS);
+            *best = trial.fit_rmse < best->fit_rmse ? trial : *best;
+        }
+    }
+}
+
 /// Further from there and from all starts.
 static void refine(void* context, size_t index)
 {
@@ -182,6 +196,7 @@ static void refine(void* context, size_t index)
     const gap_t* gap = extensions->c->gap;
     hypothesis_t* hypothesis = &extensions->refined[index];
     hypothesis_t brief = extensions->extension[index].fitted;
+    try_other_mechanisms(extensions->c, &extensions->extension[index], &brief);
     hypothesis_fit(&brief, gap, -1, SINGLE_EVALUATIONS);
     hypothesis_search(hypothesis, gap, false, SINGLE_EVALUATIONS);
     if (brief.fit_rmse < hypothesis->fit_rmse) {

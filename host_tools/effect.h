@@ -32,6 +32,7 @@ typedef struct {
     double input_rate;             ///< the largest |d input/dt| between two samples
     double travel;                 ///< the sum of |d input|
     double largest_radius;         ///< of a play that the model's range can move, envelope units
+    const loop_middle_t* middle;   ///< of the model
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
     const stand_in_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they
                             ///< do on the model's; or NULL
@@ -85,6 +86,7 @@ struct effect {
     void (*invert)(const effect_run_t* run, const double* parameter, const double* column, double* series);
     double covers; ///< by how much it counts for more than one effect when hypotheses are weighed, because
                    ///< its parameters can be another's as well
+    bool superseded; ///< another mechanism of its name explains what it does: for model files, not for searches
     bool clips;    ///< invert leaves what it cannot reach where apply does not give it back
     const char* no_inverse; ///< why the effect has no inverse, as the end of a sentence; NULL: it has one
 };

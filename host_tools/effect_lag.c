@@ -4,22 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-lag_step_t lag_step(double step, double tau)
-{
-    if (!(tau > 0.0)) {
-        return (lag_step_t){0.0, 1.0};
-    }
-    const double z = step / tau;
-    const double missing = -expm1(-z);
-    // Below 1e-5 the series is right to the last bit, where the difference cancels.
-    return (lag_step_t){1.0 - missing, z < 1e-5 ? z * (0.5 - z / 6.0) : 1.0 - missing / z};
-}
-
-double lag_next(lag_step_t lag, double state, double from, double to)
-{
-    return lag.decay * state + (1.0 - lag.decay) * from + lag.ramp * (to - from);
-}
-
 static void lag_series(const effect_run_t* run, const double* tau, double* series)
 {
     double from = run->num_samples > 0 ? series[0] : 0.0;

@@ -1,16 +1,9 @@
-/// First-order lags, exact for an input that is linear between the samples, and leads.
+/// Lags and leads of whole series.
 #ifndef HYST_HOST_EFFECT_LAG_H
 #define HYST_HOST_EFFECT_LAG_H
 
 #include "effect.h"
-
-/// What a step of a lag does: next = decay * state + (1 - decay) * u0 + ramp * (u1 - u0).
-typedef struct {
-    double decay, ramp;
-} lag_step_t;
-/// tau 0: the input itself.
-lag_step_t lag_step(double step, double tau);
-double lag_next(lag_step_t lag, double state, double from, double to);
+#include "lag_step.h"
 
 /// The slope and curvature of the parabola through each sample and its neighbours, the series at rest before
 /// its first value and straight beyond its last: slope[num_samples], curvature[num_samples].

@@ -2,18 +2,31 @@
 ///     product:    S' = S_m + (1 + level_gain * level(v)) (S - S_m): weights that depend on the input
 ///     moving:     the plays see v + moving * half range * (S - S_m) / S_h: a mean field
 ///     increment:  dS' = (1 + level_gain * level(v)) dS: what a loop's two branches gain and lose does not
-///     cancel, so
-///                 that each cycle also shifts the output
-/// S: the plays' weighted sum, S_m and S_h the middle and half of its span between the saturations, level(v)
-/// from -1 to 1 over the model's input range. level_gain in (-1, 1), moving in [-1, 1] [1]. Sources: I. D.
-/// Mayergoyz, Mathematical Models of Hysteresis, 1991, ch. II (input-dependent model); E. Della Torre, IEEE
-/// Trans. Audio 14 (1966) 86 (moving model).
+///                 cancel, so that each cycle also shifts the output
+/// and two that leave the middle m(v) of the major loop alone, which the calibration already shows:
+///     remanence_field:     the plays see v + field * half range * (y - m(v)) / half span: a mean field of
+///                          the remanent part of the output alone
+///     remanence_stiffness: y' = y + stiffness * d(v) (y - m(v)): a reversible response whose steepness goes
+///                          with the remanence
+/// S: the plays' weighted sum, S_m and S_h the middle and half of its span between the saturations, y the
+/// output, half span that of its range between them, level(v) from -1 to 1 over the model's input range, d(v)
+/// the nonhysteretic part likewise from -1 to 1 (level(v) where it is constant). level_gain in (-1, 1),
+/// moving and field in [-1, 1], stiffness in [-10, 10] [1]; above 1 the loop runs the other way round at one
+/// end. Inverse: by halving, sample by sample, where the output rises with the input (a field's factor times
+/// the loop's relative steepness below 1). Sources: I. D. Mayergoyz, Mathematical Models of Hysteresis, 1991,
+/// ch. II (input-dependent model); E. Della Torre, IEEE Trans. Audio 14 (1966) 86 (moving model); E. Della
+/// Torre, J. Oti, G. Kadar, IEEE Trans. Magn. 26 (1990) 3052 (reversible part that depends on the
+/// irreversible one).
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
 static const effect_parameter_t gain_parameter[] = {{"level_gain", "1", .least = -0.99, .most = 0.99}};
 
 static const effect_parameter_t moving_parameter[] = {{"moving", "1", .least = -1.0, .most = 1.0}};
+
+static const effect_parameter_t field_parameter[] = {{"field", "1", .least = -1.0, .most = 1.0}};
+
+static const effect_parameter_t stiffness_parameter[] = {{"stiffness", "1", .least = -10.0, .most = 10.0}};
 
 static void gain_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
@@ -27,6 +40,20 @@ static void moving_limits(const effect_run_t* run, size_t parameter, effect_limi
     (void)run;
     (void)parameter;
     *result = limits_linear(-0.5, 0.5, 0.0, 0.05, -0.05, 0.2);
+}
+
+static void field_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)run;
+    (void)parameter;
+    *result = limits_linear(-0.3, 0.3, 0.0, 0.05, -0.05, 0.15);
+}
+
+static void stiffness_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)run;
+    (void)parameter;
+    *result = limits_linear(-2.0, 2.0, 0.0, 0.1, -0.1, 0.5);
 }
 
 static void configure_product(const effect_run_t* run, const double* parameter, const double* column,
@@ -53,6 +80,22 @@ static void configure_increment(const effect_run_t* run, const double* parameter
     hysteresis->level_gain += parameter[0];
 }
 
+static void configure_field(const effect_run_t* run, const double* parameter, const double* column,
+                            hysteresis_t* hysteresis)
+{
+    (void)run;
+    (void)column;
+    hysteresis->remanence_field += parameter[0];
+}
+
+static void configure_stiffness(const effect_run_t* run, const double* parameter, const double* column,
+                                hysteresis_t* hysteresis)
+{
+    (void)run;
+    (void)column;
+    hysteresis->remanence_stiffness += parameter[0];
+}
+
 const effect_t effect_noncongruency_product = {
     .name = "noncongruency",
     .mechanism = "product",
@@ -73,6 +116,7 @@ const effect_t effect_noncongruency_moving = {
     .parameter = moving_parameter,
     .limits = moving_limits,
     .configure = configure_moving,
+    .superseded = true,
 };
 
 const effect_t effect_noncongruency_increment = {
@@ -84,4 +128,27 @@ const effect_t effect_noncongruency_increment = {
     .parameter = gain_parameter,
     .limits = gain_limits,
     .configure = configure_increment,
+    .superseded = true,
+};
+
+const effect_t effect_noncongruency_remanence_field = {
+    .name = "noncongruency",
+    .mechanism = "remanence_field",
+    .stage = EFFECT_HYSTERESIS,
+    .transferable = true,
+    .num_parameters = COUNT_OF(field_parameter),
+    .parameter = field_parameter,
+    .limits = field_limits,
+    .configure = configure_field,
+};
+
+const effect_t effect_noncongruency_remanence_stiffness = {
+    .name = "noncongruency",
+    .mechanism = "remanence_stiffness",
+    .stage = EFFECT_HYSTERESIS,
+    .transferable = true,
+    .num_parameters = COUNT_OF(stiffness_parameter),
+    .parameter = stiffness_parameter,
+    .limits = stiffness_limits,
+    .configure = configure_stiffness,
 };

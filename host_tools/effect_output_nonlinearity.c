@@ -1,8 +1,12 @@
 /// output_nonlinearity: a smooth static map on the output (a sensor's characteristic, a lever's geometry).
-///     y' = y + half (shift + linear z + quadratic z^2 + cubic z^3),  z = (y - middle) / half
+///     polynomial: y' = y + half (shift + linear z + quadratic z^2 + cubic z^3),  z = (y - middle) / half
+///     two_point:  y' = y + half (1 - z^2) (bow + skew (1/2 - |bow|) z), right at both ends of the range, as
+///     a
+///                 sensor is that was calibrated there
 /// middle and half of the model's output between its two saturations; beyond |z| = 1 the map goes on
 /// straight. All [1]; shift and linear say where the sensor was trimmed. The map increases: 1 + linear + 2
-/// quadratic z + 3 cubic z^2 > 0 on [-1, 1]. Inverse: by halving.
+/// quadratic z + 3 cubic z^2 > 0 on [-1, 1], which of two_point's |bow| below 1/2 and |skew| below 1 always
+/// do. Inverse: by halving.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -15,6 +19,20 @@ static const effect_parameter_t parameters[] = {
     [SHIFT] = {"shift", "1", .least = -10.0, .most = 10.0, .optional = true},
     [LINEAR] = {"linear", "1", .least = -0.9, .most = 10.0, .optional = true},
 };
+
+enum { BOW, SKEW };
+
+static const effect_parameter_t two_point_parameters[] = {
+    [BOW] = {"bow", "1", .least = -0.49, .most = 0.49},
+    [SKEW] = {"skew", "1", .least = -0.99, .most = 0.99},
+};
+
+static void two_point_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)run;
+    *result = parameter == BOW ? limits_linear(-0.45, 0.45, 0.0, 0.0, 0.1, -0.1)
+                               : limits_linear(-0.95, 0.95, 0.0, 0.0, 0.2, -0.2);
+}
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
@@ -109,8 +127,43 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     run_map(run, parameter, unmap, series);
 }
 
-const effect_t effect_output_nonlinearity = {
+static void run_two_point(const effect_run_t* run, const double* parameter, map_t* function, double* series)
+{
+    const double cubic = parameter[SKEW] * (0.5 - fabs(parameter[BOW]));
+    const double polynomial[] = {
+        [QUADRATIC] = -parameter[BOW], [CUBIC] = -cubic, [SHIFT] = parameter[BOW], [LINEAR] = cubic};
+    run_map(run, polynomial, function, series);
+}
+
+static void apply_two_point(const effect_run_t* run, const double* parameter, const double* column,
+                            double* series)
+{
+    (void)column;
+    run_two_point(run, parameter, map, series);
+}
+
+static void invert_two_point(const effect_run_t* run, const double* parameter, const double* column,
+                             double* series)
+{
+    (void)column;
+    run_two_point(run, parameter, unmap, series);
+}
+
+const effect_t effect_output_nonlinearity_two_point = {
     .name = "output_nonlinearity",
+    .mechanism = "two_point",
+    .stage = EFFECT_SENSOR,
+    .transferable = true,
+    .num_parameters = COUNT_OF(two_point_parameters),
+    .parameter = two_point_parameters,
+    .limits = two_point_limits,
+    .apply = apply_two_point,
+    .invert = invert_two_point,
+};
+
+const effect_t effect_output_nonlinearity_polynomial = {
+    .name = "output_nonlinearity",
+    .mechanism = "polynomial",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -54,7 +54,8 @@ effect_run_t effect_run_new(const model_t* model, const record_t* record)
                         .input_span = model->input_max - model->input_min,
                         .output_min = model_output_min(model),
                         .output_max = model_output_max(model),
-                        .largest_radius = model_largest_moving_radius(model)};
+                        .largest_radius = model_largest_moving_radius(model),
+                        .middle = loop_middle_new(model)};
     if (record->time == NULL) {
         double* seconds = xcalloc(count, sizeof(double));
         for (size_t i = 0; i < count; ++i) {
@@ -82,6 +83,7 @@ void effect_run_free(effect_run_t* run)
     if (run->record != NULL && run->time != run->record->time) {
         free((void*)(uintptr_t)run->time);
     }
+    loop_middle_free((loop_middle_t*)(uintptr_t)run->middle);
     *run = (effect_run_t){0};
 }
 
@@ -183,6 +185,7 @@ static void apply_stage(const effect_run_t* run, const effect_use_t* uses, size_
 hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses, size_t num_uses)
 {
     hysteresis_t hysteresis = hysteresis_neutral();
+    hysteresis.middle = run->middle;
     for (size_t u = 0; u < num_uses; ++u) {
         if (uses[u].effect->configure != NULL) {
             double* column = centred_column(run, &uses[u]);
@@ -193,15 +196,41 @@ hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses
     return hysteresis;
 }
 
+static double nonhysteretic_at(const effect_run_t* run, const model_t* model, double v)
+{
+    return run->fast != NULL ? fast_plays_nonhysteretic(run->fast, v) : curve_value(&model->nonhysteretic, v);
+}
+
+/// What the hysteretic part of the material sees of the drive, allocated; into direct[num_samples] what the
+/// nonhysteretic part gives beyond what it would give for the same.
+static double* seen_of(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
+                       const double* drive, double* direct)
+{
+    double* seen = xmalloc(run->num_samples * sizeof(double));
+    hysteresis_field(hysteresis, run->time, drive, run->num_samples, seen);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        const double own = 1.0 - hysteresis->field.share;
+        const double field = nonhysteretic_at(run, model, seen[i]);
+        direct[i] = own * (nonhysteretic_at(run, model, drive[i]) - field);
+        if (hysteresis->shift != NULL) {
+            seen[i] += hysteresis->shift[i];
+            direct[i] += field - nonhysteretic_at(run, model, seen[i]);
+        }
+    }
+    return seen;
+}
+
 static void run_fast(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
-                     const double* input, double* output)
+                     const double* drive, double* output)
 {
     double* sum = xmalloc(run->num_samples * sizeof(double));
-    fast_plays_run(run->fast, input, run->num_samples, sum);
+    double* seen = seen_of(run, model, hysteresis, drive, output);
+    fast_plays_run(run->fast, seen, run->num_samples, sum);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        output[i] = fast_plays_nonhysteretic(run->fast, input[i]);
+        output[i] += nonhysteretic_at(run, model, seen[i]);
     }
-    hysteresis_from_sums(model, hysteresis, input, sum, run->num_samples, output);
+    hysteresis_from_sums(model, hysteresis, drive, sum, run->num_samples, output);
+    free(seen);
     free(sum);
 }
 
@@ -216,16 +245,32 @@ static void run_plays(const effect_run_t* run, const model_t* model, start_t sta
     }
 }
 
-/// The body that stands in, and what the effects change in the plays. Another memory at the start is this
-/// body's own to forget.
+/// The body that stands in, on what it sees: output[num_samples], its first one raised by `shift`.
+static void run_body_alone(const effect_run_t* run, const model_t* model, start_t start,
+                           const hysteresis_t* hysteresis, double shift, const double* drive, double* output)
+{
+    double* direct = xmalloc(run->num_samples * sizeof(double));
+    double* seen = seen_of(run, model, hysteresis, drive, direct);
+    stand_in_run(run->body, model, start, shift, seen, run->num_samples, output);
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        output[i] += direct[i];
+    }
+    free(seen);
+    free(direct);
+}
+
+/// The body that stands in, and what the effects change in the plays beyond what they see. Another memory at
+/// the start is this body's own to forget.
 static void run_body(const effect_run_t* run, const model_t* model, start_t start, hysteresis_t* hysteresis,
                      const double* drive, double* output)
 {
-    if (hysteresis_is_neutral(hysteresis)) {
-        stand_in_run(run->body, model, start, 0, drive, run->num_samples, output);
+    if (hysteresis_sees_alone(hysteresis)) {
+        run_body_alone(run, model, start, hysteresis, 0, drive, output);
         return;
     }
-    const hysteresis_t neutral = hysteresis_neutral();
+    hysteresis_t neutral = hysteresis_neutral();
+    neutral.field = hysteresis->field;
+    neutral.shift = hysteresis->shift;
     double* plain = xmalloc(run->num_samples * sizeof(double));
     double* body = xmalloc(run->num_samples * sizeof(double));
     run_plays(run, model, start, &neutral, drive, plain);
@@ -237,12 +282,48 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
         hysteresis->start_fraction = NULL;
     }
     run_plays(run, model, start, hysteresis, drive, output);
-    stand_in_run(run->body, model, start, shift, drive, run->num_samples, body);
+    run_body_alone(run, model, start, hysteresis, shift, drive, body);
     for (size_t i = 0; i < run->num_samples; ++i) {
         output[i] += body[i] - plain[i];
     }
     free(plain);
     free(body);
+}
+
+static void run_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
+                           hysteresis_t* hysteresis, const double* drive, double* output)
+{
+    if (run->body != NULL) {
+        run_body(run, model, start, hysteresis, drive, output);
+    } else {
+        run_plays(run, model, start, hysteresis, drive, output);
+    }
+}
+
+/// A mean field for searches: what the output adds to what the body sees, to the output that it then gives,
+/// until it stays; the first sample is the start's, without it. A play's states move no further than its
+/// input did, so where the field's loop gain is below 1 this contracts; it need not go beyond the cells of
+/// the searches' tables.
+static void run_mean_field(const effect_run_t* run, const model_t* model, start_t start,
+                           const hysteresis_t* hysteresis, const double* drive, double* output)
+{
+    enum { ITERATIONS = 12 };
+    const double enough = 1e-5 * run->input_span;
+    double* shift = xcalloc(run->num_samples, sizeof(double));
+    hysteresis_t inner = *hysteresis;
+    inner.remanence_field = 0.0;
+    inner.shift = shift;
+    double change = HUGE_VAL;
+    for (int i = 0; i < ITERATIONS && change > enough; ++i) {
+        run_hysteresis(run, model, start, &inner, drive, output);
+        change = 0.0;
+        for (size_t t = 1; t < run->num_samples; ++t) {
+            const double next = hysteresis_remanent_shift(hysteresis, model, drive[t], output[t]);
+            change = fmax(change, fabs(next - shift[t]));
+            shift[t] = next;
+        }
+    }
+    free(shift);
 }
 
 void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
@@ -255,13 +336,20 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     double* drive = memcpy(xmalloc(size), run->input, size);
     apply_stage(run, uses, num_uses, EFFECT_DRIVE, drive);
     hysteresis_t hysteresis = effect_hysteresis(run, uses, num_uses);
-    if (run->body != NULL) {
-        run_body(run, model, start, &hysteresis, drive, output);
+    // Acts on the whole output, whatever body gives it.
+    const hysteresis_t stiffness = {.remanence_stiffness = hysteresis.remanence_stiffness,
+                                    .middle = hysteresis.middle};
+    hysteresis.remanence_stiffness = 0.0;
+    if (fabs(hysteresis.remanence_field) > 0.0 && run->fast != NULL && hysteresis_keeps_plays(&hysteresis)) {
+        run_mean_field(run, model, start, &hysteresis, drive, output);
     } else {
-        run_plays(run, model, start, &hysteresis, drive, output);
+        run_hysteresis(run, model, start, &hysteresis, drive, output);
     }
     for (size_t i = 0; run->correction != NULL && i < run->num_samples; ++i) {
         output[i] += run->correction[i];
+    }
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        output[i] = hysteresis_stiffened(&stiffness, drive[i], output[i]);
     }
     hysteresis_free(&hysteresis);
     free(drive);

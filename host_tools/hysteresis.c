@@ -20,12 +20,19 @@ static bool differs(double value)
     return fabs(value) > 0.0;
 }
 
-bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
+bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
 {
     return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) &&
            !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
            !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
+           !differs(hysteresis->remanence_field) && !differs(hysteresis->remanence_stiffness) &&
            hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+}
+
+bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
+{
+    return hysteresis_sees_alone(hysteresis) && field_is_neutral(&hysteresis->field) &&
+           hysteresis->shift == NULL;
 }
 
 /// The input's place in the model's range, -1 ... 1; beyond the range its end's.
@@ -148,32 +155,61 @@ static void move_plays(const hysteresis_state_t* state, double v, double step, d
     }
 }
 
-/// What the plays see of the command v when their sum is `sum`.
-static double shift(const hysteresis_state_t* state, double v, double sum)
+/// A command on its way to the plays.
+typedef struct {
+    double command, field;
+    double nonhysteretic; ///< the nonhysteretic part there
+} approach_t;
+
+static double nonhysteretic_at(const hysteresis_state_t* state, double v, double field)
 {
-    const double half_range = 0.5 * (state->model->input_max - state->model->input_min);
-    const double part = fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
-    return v + state->hysteresis->moving * half_range * part;
+    const curve_t* nonhysteretic = &state->model->nonhysteretic;
+    const double direct = curve_value(nonhysteretic, v);
+    return differs(v - field)
+               ? direct + state->hysteresis->field.share * (curve_value(nonhysteretic, field) - direct)
+               : direct;
 }
 
-/// The moving model's input: v shifted by what the plays give at that very input. A secant search of the
+double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* model, double v, double y)
+{
+    const double half_range = 0.5 * (model->input_max - model->input_min);
+    return half_range * hysteresis->remanence_field * loop_middle_remanence(hysteresis->middle, v, y);
+}
+
+/// What the plays see when their sum is `sum`.
+static double shift(const hysteresis_state_t* state, const approach_t* to, double sum)
+{
+    const hysteresis_t* hysteresis = state->hysteresis;
+    double seen = to->field;
+    if (differs(hysteresis->moving) && state->sum_half > 0.0) {
+        const double half_range = 0.5 * (state->model->input_max - state->model->input_min);
+        const double part = fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
+        seen += hysteresis->moving * half_range * part;
+    }
+    if (differs(hysteresis->remanence_field)) {
+        seen += hysteresis_remanent_shift(hysteresis, state->model, to->command, to->nonhysteretic + sum);
+    }
+    return seen;
+}
+
+/// The input within a mean field: shifted by what the plays give at that very input. A secant search of the
 /// fixed point; between the plays' kinks the sum is nearly linear, so few steps do. It is unique where
-/// |moving| times the loop's relative steepness is below 1.
-static double shifted(const hysteresis_state_t* state, double v, double step)
+/// the field's factor times the loop's relative steepness is below 1.
+static double shifted(const hysteresis_state_t* state, const approach_t* to, double step)
 {
     enum { ITERATIONS = 30 };
     const model_t* model = state->model;
-    if (!differs(state->hysteresis->moving) || !(state->sum_half > 0.0)) {
-        return v;
+    if (!differs(state->hysteresis->moving) && !differs(state->hysteresis->remanence_field)) {
+        return to->field;
     }
     const double tolerance = 1e-13 * (model->input_max - model->input_min);
     double* scratch = state->memory + model->num_plays;
-    double seen = shift(state, v, state->sum);
+    double seen = shift(state, to, state->sum);
     double before = seen;
     double image_before = seen;
     for (int i = 0; i < ITERATIONS; ++i) {
         move_plays(state, seen, step, scratch);
-        const double image = shift(state, v, weighted_sum(model, scratch));
+        const double image = shift(state, to, weighted_sum(model, scratch));
         if (fabs(image - seen) <= tolerance) {
             return image;
         }
@@ -188,7 +224,8 @@ static double shifted(const hysteresis_state_t* state, double v, double step)
 
 /// What a step leads to, beside the plays' memory.
 typedef struct {
-    double seen, travel, sum, correction;
+    field_state_t field;
+    double seen, nonhysteretic, travel, sum, correction;
 } outlook_t;
 
 /// How far increments (amplitude: the sum about its middle) scale at input v after `travel`.
@@ -211,7 +248,10 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
     double* scratch = state->memory + state->model->num_plays;
-    outlook_t next = {.seen = shifted(state, v, step)};
+    outlook_t next = {.field = field_next(&hysteresis->field, &state->field, v, step)};
+    next.nonhysteretic = nonhysteretic_at(state, v, next.field.seen);
+    const approach_t to = {v, next.field.seen, next.nonhysteretic};
+    next.seen = shifted(state, &to, step);
     move_plays(state, next.seen, step, scratch);
     next.travel = state->travel + fabs(v - state->command);
     next.sum = weighted_sum(state->model, scratch);
@@ -224,14 +264,23 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     return next;
 }
 
+double hysteresis_stiffened(const hysteresis_t* hysteresis, double v, double y)
+{
+    if (!differs(hysteresis->remanence_stiffness)) {
+        return y;
+    }
+    const double factor = hysteresis->remanence_stiffness * loop_middle_reversible(hysteresis->middle, v);
+    return y + factor * (y - loop_middle_at(hysteresis->middle, v));
+}
+
 static double output_at(const hysteresis_state_t* state, double v, const outlook_t* at)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
-    double output = curve_value(&state->model->nonhysteretic, v) + at->sum + at->correction;
+    double output = at->nonhysteretic + at->sum + at->correction;
     if (differs(hysteresis->level_product) || differs(hysteresis->fade)) {
         output += (amplitude_factor(state, v, at->travel) - 1.0) * (at->sum - state->sum_middle);
     }
-    return output;
+    return hysteresis_stiffened(hysteresis, v, output);
 }
 
 /// initial_state: each play between its strip's bottom, its own start and its strip's top by a fraction that
@@ -269,6 +318,7 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
                                 .hysteresis = hysteresis,
                                 .input = first_input,
                                 .command = first_input,
+                                .field = field_start(first_input),
                                 .memory = xcalloc(2 * model->num_plays, sizeof(double))};
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
@@ -294,7 +344,12 @@ void hysteresis_state_free(hysteresis_state_t* state)
 
 double hysteresis_output(const hysteresis_state_t* state)
 {
-    const outlook_t present = {state->input, state->travel, state->sum, state->correction};
+    const outlook_t present = {
+        .nonhysteretic = nonhysteretic_at(state, state->command, state->field.seen),
+        .travel = state->travel,
+        .sum = state->sum,
+        .correction = state->correction,
+    };
     return output_at(state, state->command, &present);
 }
 
@@ -305,6 +360,7 @@ double hysteresis_step(hysteresis_state_t* state, double input, double step)
     state->sample += 1;
     state->input = next.seen;
     state->command = input;
+    state->field = next.field;
     state->travel = next.travel;
     state->sum = next.sum;
     state->correction = next.correction;
@@ -357,6 +413,16 @@ bool hysteresis_keeps_plays(const hysteresis_t* hysteresis)
            hysteresis->width == NULL && hysteresis->start_fraction == NULL;
 }
 
+void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,
+                      size_t num_samples, double* field)
+{
+    field_state_t state = field_start(num_samples > 0 ? input[0] : 0.0);
+    for (size_t i = 0; i < num_samples; ++i) {
+        state = i > 0 ? field_next(&hysteresis->field, &state, input[i], time[i] - time[i - 1]) : state;
+        field[i] = state.seen;
+    }
+}
+
 void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
                           const double* sum, size_t num_samples, double* nonhysteretic)
 {
@@ -374,6 +440,7 @@ void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, 
         }
         nonhysteretic[i] += sum[i] + correction +
                             (amplitude_factor(&state, input[i], travel) - 1.0) * (sum[i] - state.sum_middle);
+        nonhysteretic[i] = hysteresis_stiffened(hysteresis, input[i], nonhysteretic[i]);
     }
 }
 

@@ -3,6 +3,8 @@
 #ifndef HYST_HOST_HYSTERESIS_H
 #define HYST_HOST_HYSTERESIS_H
 
+#include "field.h"
+#include "loop_middle.h"
 #include "model.h"
 
 /// What effects set; hysteresis_neutral() does nothing.
@@ -14,9 +16,15 @@ typedef struct {
         level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
     double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
-    double wear;   ///< the plays' sum moves exp(-wear * travel / input_span) as far
-    double fade;   ///< the plays' sum, about its middle, scales by exp(-fade * travel / input_span)
-    double* width; ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
+    double remanence_field;      ///< the plays see v + remanence_field * half range * the output's remanence
+    double remanence_stiffness;  ///< the output, about the major loop's middle, scales by 1 + this *
+                                 ///< reversible level
+    const loop_middle_t* middle; ///< for the two above; NULL where both are 0
+    field_t field;               ///< how what the plays see follows the input
+    const double* shift; ///< [num_samples] added to what the plays see, where a search knows it; or NULL
+    double wear;         ///< the plays' sum moves exp(-wear * travel / input_span) as far
+    double fade;         ///< the plays' sum, about its middle, scales by exp(-fade * travel / input_span)
+    double* width;       ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
     const double*
         start_fraction; ///< [num_nodes] initial_state: where a play begins, node by node over the radii,
                         ///< between its strip's bottom (-1), the run's own start (0) and its top (1); or NULL
@@ -25,9 +33,20 @@ typedef struct {
 
 hysteresis_t hysteresis_neutral(void);
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
+/// Whether nothing differs but what the plays see (field, shift).
+bool hysteresis_sees_alone(const hysteresis_t* hysteresis);
 void hysteresis_free(hysteresis_t* hysteresis);
-/// Whether the plays themselves run as in the plain model and only what becomes of their sum differs.
+/// Whether the plays themselves run as in the plain model, only on another input and with
+/// another use of their sum.
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
+/// What remanence_stiffness makes of an output y at v.
+double hysteresis_stiffened(const hysteresis_t* hysteresis, double v, double y);
+/// What the plays of such a run see of the input, and what the nonhysteretic part sees of it is
+/// input + share * (field - input): field[num_samples], shift not in it.
+void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,
+                      size_t num_samples, double* field);
+/// What remanence_field adds to what the plays see where the output is y at v.
+double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* model, double v, double y);
 /// The output of such a run whose plays' sums are known: sum[num_samples], nonhysteretic[num_samples],
 /// overwritten with the output.
 void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
@@ -40,11 +59,12 @@ void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hys
 typedef struct {
     const model_t* model;
     const hysteresis_t* hysteresis;
-    double* memory; ///< [2 num_plays] the states, then scratch
-    size_t sample;  ///< the present sample's index
-    double input;   ///< what the plays see
+    double* memory;      ///< [2 num_plays] the states, then scratch
+    field_state_t field; ///< the input as it comes to the plays
+    size_t sample;       ///< the present sample's index
+    double input;        ///< what the plays see
     double travel;
-    double command;              ///< the input before `moving`
+    double command;              ///< the input before field and mean field
     double sum;                  ///< of weight * state
     double sum_middle, sum_half; ///< of what it spans between the saturations
     double correction;           ///< what increments scaled by level_gain and wear have added so far

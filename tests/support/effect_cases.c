@@ -6,7 +6,11 @@
 static const double coarse_step = 0.004;
 
 // coth(pi damping / 2 / sqrt(1 - damping^2)) for the resonance of damping 0.1; 1.3 for a moving model whose
-// loop feeds 0.15 of its relative steepness (below 1.5) back: 1 / (1 - 0.15 * 1.5). 1 + amount for creep.
+// loop feeds 0.15 of its relative steepness (below 1.5) back: 1 / (1 - 0.15 * 1.5). 1 + amount for creep,
+// 1 + 0.2 ((1 + 16 / 0.2)^0.4 - 1) for creep by a power law.
+// The stiffness reads the loop's middle from cells of 1/256 of an input unit: across a play's corner, where
+// the slope changes by at most 0.12, a cell is 0.4 * 0.12 / 1024 off, and none of the curves bends as much;
+// half a sample is 0.002 s of motion, here up to 8e-3.
 static const effect_case_t cases[] = {
     {"gain_offset", NULL, {1.2, 0.1}, 0.0},
     {"delay", NULL, {0.083}, 1.0},
@@ -14,11 +18,16 @@ static const effect_case_t cases[] = {
     {"slew_limit", NULL, {1.5}, 1.0},
     {"rate_dependence", "play_lag", {0.06}, 1.0},
     {"rate_dependence", "widening", {0.03}, 1.0},
+    {"rate_dependence", "diffusion", {0.15, 0.3}, 1.0},
+    {"rate_dependence", "excess", {0.15, 0.3}, 1.0},
     {"creep", "additional", {0.4, 0.05, 2.0}, 1.4},
     {"creep", "delayed", {0.4, 0.05, 2.0}, 1.0},
+    {"creep", "power_law", {0.2, 0.2, 0.4}, 2.0},
     {"noncongruency", "product", {0.3}, 0.0},
     {"noncongruency", "moving", {0.15}, 1.3},
     {"noncongruency", "increment", {0.2}, 1.2},
+    {"noncongruency", "remanence_field", {0.15}, 1.3},
+    {"noncongruency", "remanence_stiffness", {0.4}, 0.01},
     {"wear", "amplitude", {0.05}, 0.0},
     {"wear", "increment", {0.05}, 1.0},
     {"wear", "response", {0.05, -0.4}, 0.0},
@@ -27,7 +36,8 @@ static const effect_case_t cases[] = {
     {"resonance", NULL, {1.5, 0.1}, 6.4},
     {"backlash", NULL, {0.2}, 0.0},
     {"output_saturation", NULL, {-0.9, 0.8}, 0.0},
-    {"output_nonlinearity", NULL, {0.15, -0.06, -0.1, 0.05}, 0.0},
+    {"output_nonlinearity", "polynomial", {0.15, -0.06, -0.1, 0.05}, 0.0},
+    {"output_nonlinearity", "two_point", {0.2, -0.4}, 0.0},
     {"drift", "linear", {0.03}, 0.0},
     {"drift", "spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1}, 0.0},
     {"drift", "fine_spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1, 0.05, 0.1, 0.05, 0.1}, 0.0},

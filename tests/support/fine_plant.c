@@ -3,7 +3,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLAYS = 8, LAGS = 6, STATES = 6, MOST_NODES = 10, MOST_UNKNOWNS = MOST_NODES + 2 };
+enum {
+    PLAYS = 8,
+    LAGS = 6,
+    POWER_LAGS = 60,
+    LAYERS = 10,
+    STATES = 6,
+    MOST_NODES = 10,
+    MOST_UNKNOWNS = MOST_NODES + 2
+};
 
 typedef struct {
     const char* name;
@@ -14,12 +22,16 @@ typedef struct {
     double duration;
     double command; ///< the last step's
     double drive;
+    double layer[LAYERS]; ///< the field across half a lamination, the applied one outside the first
+    double seen;          ///< by the plays, ahead of a mean field
+    double remanence;
     double history[600]; ///< the delay's line
     size_t steps;
     double w[PLAYS];
     double sum, scaled, travel;
     double middle, half;
     double lag[LAGS];
+    double power[POWER_LAGS];
     double place, speed;
     double spline[MOST_UNKNOWNS];
     bool started;
@@ -66,6 +78,64 @@ static double drive(plant_t* plant, double u)
     return u;
 }
 
+static double nonhysteretic(const plant_t* plant, double v)
+{
+    return plant->model->nonhysteretic.slope * v + plant->model->nonhysteretic.shift;
+}
+
+/// The heat equation over layers of equal thickness, the slowest of its modes with time constant p[0].
+static double diffused(plant_t* plant, double v)
+{
+    const double pi = acos(-1.0);
+    const double rate = plant->dt * LAYERS * LAYERS * 4 / (pi * pi * plant->p[0]);
+    double before[LAYERS];
+    double mean = 0;
+    memcpy(before, plant->layer, sizeof before);
+    for (size_t k = 0; k < LAYERS; ++k) {
+        // The surface is half a layer from the first one's middle; nothing flows through the lamination's.
+        const double outward = k > 0 ? before[k - 1] - before[k] : 2 * (v - before[k]);
+        const double inward = k + 1 < LAYERS ? before[k + 1] - before[k] : 0;
+        plant->layer[k] += rate * (outward + inward);
+        mean += plant->layer[k] / LAYERS;
+    }
+    return mean;
+}
+
+static double field_inside(plant_t* plant, double v)
+{
+    if (!plant->started) {
+        plant->seen = v;
+        for (size_t k = 0; k < LAYERS; ++k) {
+            plant->layer[k] = v;
+        }
+    }
+    if (by(plant, "rate_dependence", "diffusion")) {
+        plant->seen = diffused(plant, v);
+    } else if (by(plant, "rate_dependence", "excess")) {
+        const double gap = (v - plant->seen) / plant->p[0];
+        plant->seen += plant->dt * gap * fabs(gap);
+    } else {
+        plant->seen = v;
+    }
+    return plant->seen;
+}
+
+/// The output over the mean of the plays' ascent from negative and descent from positive saturation.
+static double above_middle(const plant_t* plant, double v, double output)
+{
+    const model_t* model = plant->model;
+    const double bottom = tanh(model->descending.slope * model->input_min + model->descending.shift);
+    const double top = tanh(model->ascending.slope * model->input_max + model->ascending.shift);
+    double middle = nonhysteretic(plant, v);
+    for (size_t j = 0; j < PLAYS; ++j) {
+        const double r = model->radius[j];
+        const double up = fmax(tanh(model->ascending.slope * v + model->ascending.shift) - r, bottom + r);
+        const double down = fmin(tanh(model->descending.slope * v + model->descending.shift) + r, top - r);
+        middle += model->weight[j] * (up + down) / 2;
+    }
+    return output - middle;
+}
+
 static void start_plays(plant_t* plant, double v)
 {
     const model_t* model = plant->model;
@@ -105,10 +175,13 @@ static double plays(plant_t* plant, double command, double temperature)
 {
     const model_t* model = plant->model;
     const double half_range = (model->input_max - model->input_min) / 2;
-    double v = command;
+    double v = field_inside(plant, command);
     double extra = is(plant, "exogenous") ? plant->p[2] * temperature : 0;
     if (by(plant, "noncongruency", "moving")) {
         v += plant->p[0] * half_range * (plant->sum - plant->middle) / plant->half;
+    }
+    if (by(plant, "noncongruency", "remanence_field")) {
+        v += plant->p[0] * half_range * plant->remanence;
     }
     if (by(plant, "rate_dependence", "widening")) {
         extra += plant->p[0] * fabs(command - plant->command) / plant->dt;
@@ -160,6 +233,21 @@ static double worn(const plant_t* plant, double y)
     return pivot + (y - pivot) / exp(plant->p[0] * plant->travel / span);
 }
 
+/// (1 + t/onset)^order - 1 as a mixture of lags, ten a decade from a tenth of the onset on: the integral over
+/// ln(tau) of order / Gamma(1 - order) (tau/onset)^order exp(-onset/tau) (1 - exp(-t/tau)).
+static double power_creep(plant_t* plant, double y)
+{
+    const double* p = plant->p;
+    double sum = 0;
+    for (size_t k = 0; k < POWER_LAGS; ++k) {
+        const double tau = p[1] * exp(log(10.0) * ((double)k / 10 - 1));
+        const double density = p[2] / tgamma(1 - p[2]) * exp(p[2] * log(tau / p[1]) - p[1] / tau);
+        plant->power[k] += plant->dt / tau * (y - plant->place - plant->power[k]);
+        sum += p[0] * density * log(10.0) / 10 * plant->power[k];
+    }
+    return sum;
+}
+
 static double body(plant_t* plant, double y, double temperature)
 {
     if (!plant->started) {
@@ -180,6 +268,9 @@ static double body(plant_t* plant, double y, double temperature)
     }
     if (!is(plant, "creep")) {
         return y;
+    }
+    if (by(plant, "creep", "power_law")) {
+        return y + power_creep(plant, y);
     }
     double mean = 0;
     for (size_t k = 0; k < LAGS; ++k) {
@@ -250,6 +341,9 @@ static double curved(const plant_t* plant, double y)
     double half;
     output_range(plant, &middle, &half);
     const double z = (y - middle) / half;
+    if (by(plant, "output_nonlinearity", "two_point")) {
+        return y + half * (1 - z * z) * (p[0] + p[1] * (0.5 - fabs(p[0])) * z);
+    }
     return y + half * (p[2] + p[3] * z + p[0] * z * z + p[1] * z * z * z);
 }
 
@@ -299,15 +393,33 @@ static double sensor(plant_t* plant, double y, double time)
     return y;
 }
 
+/// Both parts of the material.
+static double material(plant_t* plant, double v, double temperature)
+{
+    const double sum = plays(plant, v, temperature);
+    const bool has_share =
+        by(plant, "rate_dependence", "diffusion") || by(plant, "rate_dependence", "excess");
+    const double share = has_share ? plant->p[1] : 0;
+    const double output =
+        sum + (1 - share) * nonhysteretic(plant, v) + share * nonhysteretic(plant, plant->seen);
+    double middle;
+    double half;
+    output_range(plant, &middle, &half);
+    plant->remanence = above_middle(plant, v, output) / half;
+    if (by(plant, "noncongruency", "remanence_stiffness")) {
+        const double half_range = (plant->model->input_max - plant->model->input_min) / 2;
+        return output + plant->p[0] * v / half_range * plant->remanence * half;
+    }
+    return output;
+}
+
 static double step(plant_t* plant, double u, double temperature, double time)
 {
     const double v = drive(plant, u);
     if (!plant->started) {
         start_plays(plant, v);
     }
-    const double sum = plays(plant, v, temperature);
-    const double y = body(
-        plant, plant->model->nonhysteretic.slope * v + plant->model->nonhysteretic.shift + sum, temperature);
+    const double y = body(plant, material(plant, v, temperature), temperature);
     const double output = sensor(plant, y, time);
     plant->started = true;
     plant->steps += 1;

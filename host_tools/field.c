@@ -1,0 +1,72 @@
+#include "field.h"
+
+#include "lag_step.h"
+#include <math.h>
+#include <stddef.h>
+
+bool field_is_neutral(const field_t* field)
+{
+    return !(field->diffusion > 0) && !(field->excess > 0);
+}
+
+field_state_t field_start(double input)
+{
+    field_state_t state = {.input = input, .diffused = input, .seen = input};
+    for (size_t k = 0; k < FIELD_MODES; k++) {
+        state.mode[k] = input;
+    }
+    return state;
+}
+
+static void diffuse(double tau, const field_state_t* from, field_state_t* to, double step)
+{
+    static const double pi = 3.14159265358979323846;
+    to->diffused = to->input;
+    for (size_t k = 0; k < FIELD_MODES; k++) {
+        const double odd = 2 * (double)k + 1;
+        to->mode[k] = lag_next(lag_step(step, tau / (odd * odd)), from->mode[k], from->input, to->input);
+        to->diffused += 8 / (pi * pi * odd * odd) * (to->mode[k] - to->input);
+    }
+}
+
+/// Where a gap g ends that opens evenly at `speed` and closes by (g / excess)^2: dg/dt = speed - (g /
+/// excess)^2, a tangent of time where g has the other sign than the speed, a hyperbolic one where it has the
+/// same.
+static double gap_after(double gap, double speed, double excess, double step)
+{
+    if (speed < 0) {
+        return -gap_after(-gap, -speed, excess, step);
+    }
+    const double steady = excess * sqrt(speed);
+    if (!(steady > 0)) {
+        return gap / (1 + fabs(gap) * step / (excess * excess));
+    }
+    const double rate = sqrt(speed) / excess;
+    double left = step;
+    if (gap < 0) {
+        const double angle = atan(gap / steady);
+        if (angle + rate * step < 0) {
+            return steady * tan(angle + rate * step);
+        }
+        left += angle / rate;
+        gap = 0;
+    }
+    const double part = tanh(rate * left);
+    return steady * (gap + steady * part) / (steady + gap * part);
+}
+
+field_state_t field_next(const field_t* field, const field_state_t* state, double input, double step)
+{
+    field_state_t next = {.input = input, .diffused = input};
+    if (field->diffusion > 0) {
+        diffuse(field->diffusion, state, &next, step);
+    }
+    next.seen = next.diffused;
+    // Below this its square is no normal number, and the gap is none.
+    if (field->excess > 1e-150) {
+        const double gap = state->diffused - state->seen;
+        const double speed = (next.diffused - state->diffused) / step;
+        next.seen -= gap_after(gap, speed, field->excess, step);
+    }
+    return next;
+}

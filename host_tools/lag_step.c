@@ -1,0 +1,19 @@
+#include "lag_step.h"
+
+#include <math.h>
+
+lag_step_t lag_step(double step, double tau)
+{
+    if (!(tau > 0.0)) {
+        return (lag_step_t){0.0, 1.0};
+    }
+    const double z = step / tau;
+    const double missing = -expm1(-z);
+    // Below 1e-5 the series is right to the last bit, where the difference cancels.
+    return (lag_step_t){1.0 - missing, z < 1e-5 ? z * (0.5 - z / 6.0) : 1.0 - missing / z};
+}
+
+double lag_next(lag_step_t lag, double state, double from, double to)
+{
+    return lag.decay * state + (1.0 - lag.decay) * from + lag.ramp * (to - from);
+}

@@ -1,0 +1,13 @@
+/// A first-order lag's step, exact for an input that is linear between the samples.
+#ifndef HYST_HOST_LAG_STEP_H
+#define HYST_HOST_LAG_STEP_H
+
+/// What a step of a lag does: next = decay * state + (1 - decay) * u0 + ramp * (u1 - u0).
+typedef struct {
+    double decay, ramp;
+} lag_step_t;
+/// tau 0: the input itself.
+lag_step_t lag_step(double step, double tau);
+double lag_next(lag_step_t lag, double state, double from, double to);
+
+#endif

@@ -1,0 +1,21 @@
+/// The middle of a model's major loop, by which a remanent output is told from what the input gives at once.
+#ifndef HYST_HOST_LOOP_MIDDLE_H
+#define HYST_HOST_LOOP_MIDDLE_H
+
+#include "model.h"
+
+typedef struct loop_middle loop_middle_t;
+
+/// Tabulated in cells of 1/1024 of the model's range.
+loop_middle_t* loop_middle_new(const model_t* model);
+void loop_middle_free(loop_middle_t* middle);
+/// The mean of the ascending and the descending branch at v; beyond the range straight on.
+double loop_middle_at(const loop_middle_t* middle, double v);
+/// The remanent part of an output y at v, y - middle(v), over half of what the model's output spans, -1
+/// ... 1.
+double loop_middle_remanence(const loop_middle_t* middle, double v, double y);
+/// The nonhysteretic part's place between its values at the range's ends, -1 ... 1; v's own place where it is
+/// constant.
+double loop_middle_reversible(const loop_middle_t* middle, double v);
+
+#endif
