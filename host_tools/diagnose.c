@@ -3,6 +3,7 @@
 #include "diagnose_body.h"
 #include "diagnose_check.h"
 #include "diagnose_grid.h"
+#include "diagnose_scope.h"
 #include "diagnose_search.h"
 #include "diagnose_structure.h"
 #include "diagnose_verdict.h"
@@ -24,10 +25,15 @@ static const size_t most_fitted = 1000000;
 /// this many independent samples.
 static const double independent_pieces = 150;
 
+/// From this part of a record on, what lies beyond the calibration's range decides which effect fits best.
+static const double much_beyond = 0.05;
+
 typedef struct {
     const diagnose_options_t* options;
     const record_t* record;
-    effect_run_t whole; ///< over the record
+    size_t first_judged; ///< of the record (diagnose_scope.h)
+    double beyond;       ///< part of the record beyond the model's range
+    effect_run_t whole;  ///< over the record
     thinned_t thinned;
     effect_run_t run; ///< over what is judged
     body_t body;
@@ -146,7 +152,7 @@ static void advise(const work_t* w, diagnosis_t* d)
              d->next.what, d->next.separation, d->noise_floor);
 }
 
-/// The gap of the model over the whole record, allocated.
+/// The gap of the model over the whole record, none where it is not judged at the start; allocated.
 static double* whole_gap(const work_t* w)
 {
     const size_t n = w->whole.num_samples;
@@ -154,7 +160,7 @@ static double* whole_gap(const work_t* w)
     double* difference = xmalloc(n * sizeof *difference);
     simulate_model(w, &w->whole, &none, difference);
     for (size_t t = 0; t < n; t++) {
-        difference[t] = w->record->output[t] - difference[t];
+        difference[t] = t >= w->first_judged ? w->record->output[t] - difference[t] : 0;
     }
     return difference;
 }
@@ -191,6 +197,8 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
     }
     d->num_samples = w->record->num_samples;
     d->num_judged = w->gap.num_judged;
+    d->first_judged = w->first_judged;
+    d->beyond = w->beyond;
     d->rmse = w->plain_rmse;
     d->relative = d->rmse / (high - low);
     d->noise = sqrt(w->scale.noise);
@@ -202,7 +210,7 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
 static void fit_on_whole(const work_t* w, const cause_t* verdict)
 {
     const nuisance_t nothing = {0};
-    thinned_t fitted = record_thin(w->record, most_fitted);
+    thinned_t fitted = record_thin(w->record, most_fitted, w->first_judged);
     effect_run_t run = effect_run_new(w->gap.model, &fitted.record);
     run.fast = w->run.fast;
     run.body = w->run.body;
@@ -227,14 +235,16 @@ static json_int_t first_fitted(const model_t* model)
 static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
 {
     const diagnose_options_t* options = w->options;
+    w->first_judged = scope_first_judged(model, w->record);
+    w->beyond = scope_beyond(model, w->record);
     w->whole = effect_run_new(model, w->record);
     w->whole.fast = fast;
-    w->thinned = record_thin(w->record, most_judged);
+    w->thinned = record_thin(w->record, most_judged, w->first_judged);
     w->run = effect_run_new(model, &w->thinned.record);
     w->run.fast = fast;
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
-    // A body cannot be learned from loops whose past is unknown.
-    if (options->calibration != NULL && first_fitted(model) == 0) {
+    // A body cannot be learned from loops whose past is unknown, nor for a range that they did not visit.
+    if (options->calibration != NULL && first_fitted(model) == 0 && !(w->beyond > much_beyond)) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, &w->thinned.record);
         w->run.body = w->body.is_duhem ? &w->body.duhem : NULL;
@@ -333,7 +343,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     }
     advise(&w, d);
     message_progress("diagnose", 0.9);
-    if (w.thinned.carried != NULL) {
+    if (w.thinned.record.num_samples < record->num_samples) {
         fit_on_whole(&w, &d->cause[0]);
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);

@@ -1,7 +1,7 @@
 #include "diagnose_search.h"
 
-#include "diagnose_structure.h"
 #include "parallel.h"
+#include "sinusoid.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -146,9 +146,7 @@ typedef struct {
 
 static int by_fit(const void* a, const void* b)
 {
-    const double x = ((const extension_t*)a)->fitted.fit_rmse;
-    const double y = ((const extension_t*)b)->fitted.fit_rmse;
-    return (x > y) - (x < y);
+    return by_mean_square(&((const extension_t*)a)->fitted, &((const extension_t*)b)->fitted);
 }
 
 static hypothesis_t joined(const hypothesis_t* base, const hypothesis_t* further)
@@ -172,7 +170,7 @@ static void try_extension(void* context, size_t index)
     memcpy(from_start.use, e->base->use, e->base->num_uses * sizeof *from_start.use);
     (void)guess_parameters(c, e->base->predicted, &from_start.use[e->base->num_uses]);
     hypothesis_fit(&from_start, c->gap, -1, BRIEF_EVALUATIONS);
-    e->fitted = from_start.fit_rmse < e->fitted.fit_rmse ? from_start : e->fitted;
+    e->fitted = by_mean_square(&from_start, &e->fitted) < 0 ? from_start : e->fitted;
 }
 
 /// Further from there and from all starts.
@@ -187,6 +185,7 @@ static void refine(void* context, size_t index)
     if (brief.fit_rmse < hypothesis->fit_rmse) {
         memcpy(hypothesis->use, brief.use, sizeof hypothesis->use);
         hypothesis->fit_rmse = brief.fit_rmse;
+        hypothesis->is_another = brief.is_another;
         hypothesis_predict(hypothesis, gap);
     }
 }

@@ -75,6 +75,9 @@ struct effect {
     /// Whether these parameters make it another effect of the catalogue (creep of one time constant is a
     /// lag), so that a fit that ends there says nothing for this one. May be NULL.
     bool (*is_another)(const double* parameter);
+    /// Whether with these parameters it cannot be told from an answer to the run's own input, though it is
+    /// meant to be unrelated to it: such a fit says nothing for it either. May be NULL.
+    bool (*follows_input)(const effect_run_t* run, const double* parameter);
     /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column, centred on its first
     /// value [num_samples], or NULL.
     void (*apply)(const effect_run_t* run, const double* parameter, const double* column, double* series);

@@ -3,9 +3,10 @@
 ///     1, 2, 3
 /// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time.
 /// frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and half the sample
-/// rate; amplitudes [output units].
+/// rate; amplitudes [output units]. Lines at multiples of a periodic input's frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
+#include "sinusoid.h"
 #include <math.h>
 
 enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS, HARMONICS = 3 };
@@ -61,6 +62,31 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     add(run, parameter, -1.0, series);
 }
 
+/// Whether the frequency is a whole multiple of one that carries most of the input: an answer to such an input
+/// has lines there and nowhere else, and in the same phase for as long as the record lasts.
+static bool is_multiple_of_input(const effect_run_t* run, double frequency)
+{
+    for (int multiple = 1; multiple <= HARMONICS; ++multiple) {
+        if (sinusoid_share(run->time, run->input, run->num_samples, frequency / multiple) > 0.5) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool follows_input(const effect_run_t* run, const double* parameter)
+{
+    double energy = 0.0;
+    double locked = 0.0;
+    for (int h = 0; h < HARMONICS; ++h) {
+        const double* amplitude = &parameter[AMPLITUDE_SIN + 2 * h];
+        const double line = amplitude[0] * amplitude[0] + amplitude[1] * amplitude[1];
+        energy += line;
+        locked += is_multiple_of_input(run, (h + 1) * parameter[FREQUENCY]) ? line : 0.0;
+    }
+    return locked > 0.5 * energy;
+}
+
 const effect_t effect_periodic_disturbance = {
     .name = "periodic_disturbance",
     .stage = EFFECT_SENSOR,
@@ -70,5 +96,6 @@ const effect_t effect_periodic_disturbance = {
     .limits = limits,
     .apply = apply,
     .invert = invert,
+    .follows_input = follows_input,
     .covers = 0.5, // on periodic work its harmonics follow what the body itself does beside the model
 };
