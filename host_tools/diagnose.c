@@ -139,6 +139,20 @@ static void set_shrink(const work_t* w, cause_t* cause)
     cause->shrink_high = fmax(1 - sqrt(part.low), cause->shrink);
 }
 
+/// Of inputs that the model was not identified for, no effect can be named with confidence: all of them are
+/// judged by what the model's curves say where nothing was measured.
+static void mind_beyond(const work_t* w, diagnosis_t* d)
+{
+    if (w->beyond > much_beyond) {
+        d->confident = false;
+        snprintf(
+            d->advice, sizeof d->advice,
+            "first identify the model over the range in use: at %.0f %% of the samples the input is beyond "
+            "its %.6g ... %.6g, and what the model says there was never measured",
+            100 * w->beyond, w->gap.model->input_min, w->gap.model->input_max);
+    }
+}
+
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
@@ -146,10 +160,11 @@ static void advise(const work_t* w, diagnosis_t* d)
         return;
     }
     d->next = next_input_find(&w->gap, d->cause[0].hypothesis, d->cause[1].hypothesis);
-    snprintf(d->advice, sizeof d->advice,
-             "apply %s: there the two leading explanations differ by %.3g in the output (noise and known "
+    const size_t length = strlen(d->advice);
+    snprintf(d->advice + length, sizeof d->advice - length,
+             "%sapply %s: there the two leading explanations differ by %.3g in the output (noise and known "
              "misfit: %.3g)",
-             d->next.what, d->next.separation, d->noise_floor);
+             length > 0 ? "; then " : "", d->next.what, d->next.separation, d->noise_floor);
 }
 
 /// The gap of the model over the whole record, none where it is not judged at the start; allocated.
@@ -242,6 +257,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     w->thinned = record_thin(w->record, most_judged, w->first_judged);
     w->run = effect_run_new(model, &w->thinned.record);
     w->run.fast = fast;
+    w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
     // A body cannot be learned from loops whose past is unknown, nor for a range that they did not visit.
     if (options->calibration != NULL && first_fitted(model) == 0 && !(w->beyond > much_beyond)) {
@@ -341,6 +357,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     for (size_t k = 0; k < d->num_causes; k++) {
         set_shrink(&w, &d->cause[k]);
     }
+    mind_beyond(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
     if (w.thinned.record.num_samples < record->num_samples) {

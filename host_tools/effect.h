@@ -35,6 +35,7 @@ typedef struct {
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
     const duhem_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they do
                          ///< on the model's; or NULL
+    double input_frequency;   ///< for searches: of the line that carries most of the input [Hz]; 0: none does
     const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
 } effect_run_t;
 

@@ -6,7 +6,6 @@
 /// rate; amplitudes [output units]. Lines at multiples of a periodic input's frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
-#include "sinusoid.h"
 #include <math.h>
 
 enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS, HARMONICS = 3 };
@@ -62,23 +61,19 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     add(run, parameter, -1.0, series);
 }
 
-/// Whether the frequency is a whole multiple of one that carries most of the input: an answer to such an input
-/// has lines there and nowhere else, and in the same phase for as long as the record lasts.
+/// Whether the record cannot tell the frequency from a whole multiple of the input's: an answer to a periodic
+/// input has lines there and nowhere else, in one phase for as long as the record lasts.
 static bool is_multiple_of_input(const effect_run_t* run, double frequency)
 {
-    for (int multiple = 1; multiple <= HARMONICS; ++multiple) {
-        if (sinusoid_share(run->time, run->input, run->num_samples, frequency / multiple) > 0.5) {
-            return true;
-        }
-    }
-    return false;
+    const double multiple = round(frequency / run->input_frequency);
+    return multiple >= 1.0 && fabs(frequency - multiple * run->input_frequency) < 0.5 / run->duration;
 }
 
 static bool follows_input(const effect_run_t* run, const double* parameter)
 {
     double energy = 0.0;
     double locked = 0.0;
-    for (int h = 0; h < HARMONICS; ++h) {
+    for (int h = 0; run->input_frequency > 0.0 && h < HARMONICS; ++h) {
         const double* amplitude = &parameter[AMPLITUDE_SIN + 2 * h];
         const double line = amplitude[0] * amplitude[0] + amplitude[1] * amplitude[1];
         energy += line;
