@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
-enum { SINGLE_EVALUATIONS = 40, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
+enum { ITERATIONS = 20, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
 
 static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
 {
@@ -33,6 +33,16 @@ void candidates_free(candidates_t* candidates)
     }
     free(candidates->hypothesis);
     *candidates = (candidates_t){0};
+}
+
+/// An iteration takes one evaluation and one for each parameter's difference.
+static int evaluations_of(const hypothesis_t* hypothesis)
+{
+    int evaluations = ITERATIONS;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        evaluations += ITERATIONS * (int)hypothesis->use[i].effect->num_parameters;
+    }
+    return evaluations;
 }
 
 static double mean_of(const double* values, size_t count)
@@ -85,7 +95,7 @@ static void try_single(void* context, size_t index)
     const candidates_t* c = context;
     hypothesis_t* hypothesis = &c->hypothesis[index + 1];
     const bool guessed = guess_parameters(c, c->hypothesis[0].predicted, &hypothesis->use[0]);
-    hypothesis_search(hypothesis, c->gap, guessed, SINGLE_EVALUATIONS);
+    hypothesis_search(hypothesis, c->gap, guessed, evaluations_of(hypothesis));
 }
 
 void candidates_add_singles(candidates_t* c)
@@ -180,8 +190,8 @@ static void refine(void* context, size_t index)
     const gap_t* gap = extensions->c->gap;
     hypothesis_t* hypothesis = &extensions->refined[index];
     hypothesis_t brief = extensions->extension[index].fitted;
-    hypothesis_fit(&brief, gap, -1, SINGLE_EVALUATIONS);
-    hypothesis_search(hypothesis, gap, false, SINGLE_EVALUATIONS);
+    hypothesis_fit(&brief, gap, -1, evaluations_of(&brief));
+    hypothesis_search(hypothesis, gap, false, evaluations_of(hypothesis));
     if (brief.fit_rmse < hypothesis->fit_rmse) {
         memcpy(hypothesis->use, brief.use, sizeof hypothesis->use);
         hypothesis->fit_rmse = brief.fit_rmse;
