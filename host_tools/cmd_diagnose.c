@@ -34,12 +34,12 @@ static void print_report(const diagnosis_t* d, const model_t* model)
 {
     printf("gap: rmse %.6g %s, %.3g %% of the output's range; noise and known misfit account for %.6g\n",
            d->rmse, model->output_unit, 100 * d->relative, d->noise_floor);
-    if (d->first_judged > 0) {
+    if (d->scope.first_judged > 0) {
         printf("left out: the first %zu samples, whose memory is as unknown as that of the calibration's "
                "start\n",
-               d->first_judged);
+               d->scope.first_judged);
     }
-    if (d->num_judged + d->first_judged < d->num_samples) {
+    if (d->num_judged + d->scope.first_judged < d->num_samples) {
         printf("judged by %zu of %zu samples, in full-rate stretches spread over the record\n", d->num_judged,
                d->num_samples);
     }

@@ -25,15 +25,11 @@ static const size_t most_fitted = 1000000;
 /// this many independent samples.
 static const double independent_pieces = 150;
 
-/// From this part of a record on, what lies beyond the calibration's range decides which effect fits best.
-static const double much_beyond = 0.05;
-
 typedef struct {
     const diagnose_options_t* options;
     const record_t* record;
-    size_t first_judged; ///< of the record (diagnose_scope.h)
-    double beyond;       ///< part of the record beyond the model's range
-    effect_run_t whole;  ///< over the record
+    scope_t scope;
+    effect_run_t whole; ///< over the record
     thinned_t thinned;
     effect_run_t run; ///< over what is judged
     body_t body;
@@ -139,17 +135,12 @@ static void set_shrink(const work_t* w, cause_t* cause)
     cause->shrink_high = fmax(1 - sqrt(part.low), cause->shrink);
 }
 
-/// Of inputs that the model was not identified for, no effect can be named with confidence: all of them are
-/// judged by what the model's curves say where nothing was measured.
-static void mind_beyond(const work_t* w, diagnosis_t* d)
+/// Where the model fails on work that it was not identified for, no effect can be named with confidence.
+static void mind_scope(const work_t* w, diagnosis_t* d)
 {
-    if (w->beyond > much_beyond) {
-        d->confident = false;
-        snprintf(
-            d->advice, sizeof d->advice,
-            "first identify the model over the range in use: at %.0f %% of the samples the input is beyond "
-            "its %.6g ... %.6g, and what the model says there was never measured",
-            100 * w->beyond, w->gap.model->input_min, w->gap.model->input_max);
+    if (!d->is_none) {
+        d->confident = d->confident && scope_is_known(&w->scope);
+        scope_advise(&w->scope, w->gap.model, d->advice, sizeof d->advice);
     }
 }
 
@@ -175,7 +166,7 @@ static double* whole_gap(const work_t* w)
     double* difference = xmalloc(n * sizeof *difference);
     simulate_model(w, &w->whole, &none, difference);
     for (size_t t = 0; t < n; t++) {
-        difference[t] = t >= w->first_judged ? w->record->output[t] - difference[t] : 0;
+        difference[t] = t >= w->scope.first_judged ? w->record->output[t] - difference[t] : 0;
     }
     return difference;
 }
@@ -212,8 +203,7 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
     }
     d->num_samples = w->record->num_samples;
     d->num_judged = w->gap.num_judged;
-    d->first_judged = w->first_judged;
-    d->beyond = w->beyond;
+    d->scope = w->scope;
     d->rmse = w->plain_rmse;
     d->relative = d->rmse / (high - low);
     d->noise = sqrt(w->scale.noise);
@@ -225,7 +215,7 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
 static void fit_on_whole(const work_t* w, const cause_t* verdict)
 {
     const nuisance_t nothing = {0};
-    thinned_t fitted = record_thin(w->record, most_fitted, w->first_judged);
+    thinned_t fitted = record_thin(w->record, most_fitted, w->scope.first_judged);
     effect_run_t run = effect_run_new(w->gap.model, &fitted.record);
     run.fast = w->run.fast;
     run.body = w->run.body;
@@ -250,17 +240,16 @@ static json_int_t first_fitted(const model_t* model)
 static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
 {
     const diagnose_options_t* options = w->options;
-    w->first_judged = scope_first_judged(model, w->record);
-    w->beyond = scope_beyond(model, w->record);
+    w->scope = scope_of(model, options->calibration, w->record);
     w->whole = effect_run_new(model, w->record);
     w->whole.fast = fast;
-    w->thinned = record_thin(w->record, most_judged, w->first_judged);
+    w->thinned = record_thin(w->record, most_judged, w->scope.first_judged);
     w->run = effect_run_new(model, &w->thinned.record);
     w->run.fast = fast;
     w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
-    // A body cannot be learned from loops whose past is unknown, nor for a range that they did not visit.
-    if (options->calibration != NULL && first_fitted(model) == 0 && !(w->beyond > much_beyond)) {
+    // A body cannot be learned from loops whose past is unknown, nor for work that they have none of.
+    if (options->calibration != NULL && first_fitted(model) == 0 && scope_is_known(&w->scope)) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, &w->thinned.record);
         w->run.body = w->body.is_duhem ? &w->body.duhem : NULL;
@@ -357,7 +346,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     for (size_t k = 0; k < d->num_causes; k++) {
         set_shrink(&w, &d->cause[k]);
     }
-    mind_beyond(&w, d);
+    mind_scope(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
     if (w.thinned.record.num_samples < record->num_samples) {

@@ -82,11 +82,11 @@ static json_t* verdict_json(const diagnosis_t* d)
 
 static json_t* gap_json(const diagnosis_t* d)
 {
-    return json_pack("{s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f}", "samples", (json_int_t)d->num_samples,
-                     "samples_judged", (json_int_t)d->num_judged, "first_judged",
-                     (json_int_t)d->first_judged, "beyond_calibration", d->beyond, "rmse", d->rmse,
-                     "relative", d->relative, "noise", d->noise, "noise_floor", d->noise_floor, "closable",
-                     d->closable);
+    return json_pack("{s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "samples",
+                     (json_int_t)d->num_samples, "samples_judged", (json_int_t)d->num_judged, "first_judged",
+                     (json_int_t)d->scope.first_judged, "beyond_calibration", d->scope.beyond, "unvisited",
+                     d->scope.unvisited, "rmse", d->rmse, "relative", d->relative, "noise", d->noise,
+                     "noise_floor", d->noise_floor, "closable", d->closable);
 }
 
 json_t* diagnosis_to_json(const diagnosis_t* d)

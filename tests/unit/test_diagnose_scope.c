@@ -46,31 +46,53 @@ static void make_triangle(size_t quarter)
 static void test_a_start_is_left_out_where_the_calibrations_was(void)
 {
     make_triangle(100);
-    TEST_ASSERT_EQUAL(0, scope_first_judged(&model, &record));
+    TEST_ASSERT_EQUAL(0, scope_of(&model, NULL, &record).first_judged);
     calibration_started_unknown(0);
-    TEST_ASSERT_EQUAL(0, scope_first_judged(&model, &record));
+    TEST_ASSERT_EQUAL(0, scope_of(&model, NULL, &record).first_judged);
     calibration_started_unknown(50);
     // Near the bottom is within a hundredth of the range, which is 2 of its 200 samples.
-    TEST_ASSERT_UINT_WITHIN(2, 299, scope_first_judged(&model, &record));
+    TEST_ASSERT_UINT_WITHIN(2, 299, scope_of(&model, NULL, &record).first_judged);
 }
 
 static void test_most_of_a_record_is_never_left_out(void)
 {
     calibration_started_unknown(50);
     make_triangle(190);
-    TEST_ASSERT_UINT_WITHIN(4, 569, scope_first_judged(&model, &record));
+    TEST_ASSERT_UINT_WITHIN(4, 569, scope_of(&model, NULL, &record).first_judged);
     make_triangle(210); // 3 quarters are beyond 30 % of the record
-    TEST_ASSERT_EQUAL(0, scope_first_judged(&model, &record));
+    TEST_ASSERT_EQUAL(0, scope_of(&model, NULL, &record).first_judged);
 }
 
 static void test_what_lies_beyond_the_range_is_counted(void)
 {
     make_triangle(100);
-    TEST_ASSERT_EQUAL_DOUBLE(0, scope_beyond(&model, &record));
+    TEST_ASSERT_EQUAL_DOUBLE(0, scope_of(&model, NULL, &record).beyond);
     model.input_min = 4;
     model.input_max = 6;
     // 2 - 0.02 of the way's 3 on either side of the middle lie beyond, to a sample each way at each crossing.
-    TEST_ASSERT_DOUBLE_WITHIN(4.0 / 400, 1.98 / 3, scope_beyond(&model, &record));
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 / 400, 1.98 / 3, scope_of(&model, NULL, &record).beyond);
+}
+
+/// A bench record of loops of one size, and one of all sizes.
+static void test_loops_that_were_never_made_are_counted(void)
+{
+    double bench_input[SAMPLES];
+    const record_t bench = {.num_samples = SAMPLES, .time = time_of, .input = bench_input};
+    for (size_t t = 0; t < SAMPLES; t++) {
+        bench_input[t] = 5 - 5 * cos(2 * pi * (double)t / 400);
+    }
+    make_triangle(100); // between 2 and 8: neither reversal is within an eighth of the range of 0 or of 10
+    TEST_ASSERT_EQUAL_DOUBLE(0, scope_of(&model, NULL, &record).unvisited);
+    TEST_ASSERT_EQUAL_DOUBLE(1, scope_of(&model, &bench, &record).unvisited);
+    TEST_ASSERT_EQUAL_DOUBLE(0, scope_of(&model, &bench, &bench).unvisited);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        bench_input[t] = 5 - 5 * (1 - (double)t / SAMPLES) * cos(2 * pi * (double)t / 100);
+    }
+    scope_t scope = scope_of(&model, &bench, &record);
+    // Twenty loops shrink by a fortieth of the range at each end. Only the record's first way is new, from
+    // the middle to the top, 100 samples and some more until the way back is no noise.
+    TEST_ASSERT_DOUBLE_WITHIN(12.0 / SAMPLES, 100.0 / SAMPLES, scope.unvisited);
+    TEST_ASSERT_TRUE(scope_is_known(&scope));
 }
 
 static double frequency_found(void)
@@ -127,6 +149,7 @@ int main(void)
     RUN_TEST(test_a_start_is_left_out_where_the_calibrations_was);
     RUN_TEST(test_most_of_a_record_is_never_left_out);
     RUN_TEST(test_what_lies_beyond_the_range_is_counted);
+    RUN_TEST(test_loops_that_were_never_made_are_counted);
     RUN_TEST(test_a_periodic_input_is_seen);
     RUN_TEST(test_a_fading_oscillation_is_periodic);
     RUN_TEST(test_other_inputs_are_not);

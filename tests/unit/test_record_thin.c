@@ -67,6 +67,24 @@ static void test_a_short_record_stays_as_it_is(void)
     TEST_ASSERT_EQUAL_STRING(path, thinned.record.path);
 }
 
+static void test_a_start_that_is_not_to_be_judged_is_carried(void)
+{
+    static const size_t lengths[] = {MOST, SAMPLES};
+    const size_t first = 5000; // beyond the first stretch of the long one
+    for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
+        record.num_samples = lengths[i];
+        thinned_t all = record_thin(&record, MOST, 0);
+        thinned = record_thin(&record, MOST, first);
+        TEST_ASSERT_EQUAL(all.record.num_samples, thinned.record.num_samples);
+        for (size_t k = 0; k < thinned.record.num_samples; k++) {
+            const bool was_carried = all.carried != NULL && all.carried[k];
+            TEST_ASSERT_EQUAL(was_carried || number_of(k) < first, thinned.carried[k]);
+        }
+        thinned_free(&all);
+        thinned_free(&thinned);
+    }
+}
+
 static void test_what_is_kept_is_the_record_s_own_in_order(void)
 {
     static const size_t lengths[] = {MOST + 1, 3 * MOST, SAMPLES};
@@ -145,6 +163,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_short_record_stays_as_it_is);
+    RUN_TEST(test_a_start_that_is_not_to_be_judged_is_carried);
     RUN_TEST(test_what_is_kept_is_the_record_s_own_in_order);
     RUN_TEST(test_judged_samples_lie_in_stretches);
     RUN_TEST(test_plays_run_as_on_the_whole_record);
