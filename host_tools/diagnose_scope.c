@@ -6,7 +6,7 @@
 
 /// As identify has it (identify_samples.c): within this part of the range of an end counts as there.
 static const double end_tolerance = 0.01;
-/// As identify has it: more than this part of a record is not given away.
+/// As identify has it: no more of a record is given away.
 static const double most_left_out = 0.3;
 /// Of the input's variance: two lines cannot both carry it.
 static const double most_of_input = 0.5;
@@ -23,13 +23,13 @@ enum { CELLS = 8 };
 
 static size_t first_judged(const model_t* model, const record_t* record)
 {
-    const size_t n = record->num_samples;
     if (json_integer_value(json_object_get(model->identification, "first_fitted")) <= 0) {
         return 0;
     }
+    const size_t most = (size_t)(most_left_out * (double)record->num_samples);
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
-    for (size_t t = 0; t < n; t++) {
+    for (size_t t = 0; t < most; t++) {
         low = fmin(low, record->input[t]);
         high = fmax(high, record->input[t]);
     }
@@ -37,12 +37,12 @@ static size_t first_judged(const model_t* model, const record_t* record)
     bool was_low = false;
     bool was_high = false;
     size_t first = 0;
-    while (first < n && !(was_low && was_high)) {
+    while (first < most && !(was_low && was_high)) {
         was_low = was_low || record->input[first] <= low + near;
         was_high = was_high || record->input[first] >= high - near;
         first++;
     }
-    return (double)first <= most_left_out * (double)n ? first : 0;
+    return first;
 }
 
 static double beyond_range(const model_t* model, const record_t* record)

@@ -8,8 +8,7 @@
 typedef struct {
     /// How many samples at the record's start are not to be judged by. Where identify left out the
     /// calibration's start, since no memory that it can assume explains it, the same plant's record is left
-    /// out likewise, to where both ends of its own input range were visited; 0 where that takes too much of
-    /// the record.
+    /// out likewise, to where both ends were visited of the input range of its first 30 %.
     size_t first_judged;
     /// The part of the samples, 0 ... 1, whose input lies beyond the model's range.
     double beyond;
