@@ -129,21 +129,6 @@ void scope_advise(const scope_t* scope, const model_t* model, char* text, size_t
 double scope_input_frequency(const effect_run_t* run)
 {
     const size_t n = run->num_samples;
-    const double start = strongest_sinusoid(run->time, run->input, n).frequency;
-    const double resolution = 1 / run->duration;
-    double low = start - 0.5 * resolution;
-    double high = start + 0.5 * resolution;
-    // Within a line's width the share has one maximum. 20 thirds leave 3e-4 of the resolution.
-    for (int i = 0; i < 20; i++) {
-        const double left = low + (high - low) / 3;
-        const double right = high - (high - low) / 3;
-        if (sinusoid_share(run->time, run->input, n, left) <
-            sinusoid_share(run->time, run->input, n, right)) {
-            low = left;
-        } else {
-            high = right;
-        }
-    }
-    const double found = 0.5 * (low + high);
+    const double found = strongest_sinusoid(run->time, run->sample_time, run->input, n).frequency;
     return sinusoid_share(run->time, run->input, n, found) > most_of_input ? found : 0;
 }

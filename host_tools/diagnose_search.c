@@ -66,7 +66,7 @@ static bool guess_parameters(const candidates_t* c, const double* predicted, eff
     for (size_t t = 0; t < run->num_samples; t++) {
         difference[t] = c->gap->output[t] - predicted[t];
     }
-    const sinusoid_t peak = strongest_sinusoid(run->time, difference, run->num_samples);
+    const sinusoid_t peak = strongest_sinusoid(run->time, run->sample_time, difference, run->num_samples);
     free(difference);
     const double guess[EFFECT_MAX_PARAMETERS] = {peak.frequency, peak.sine, peak.cosine};
     memcpy(use->parameter, guess, sizeof guess);

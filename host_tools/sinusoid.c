@@ -1,5 +1,6 @@
 #include "sinusoid.h"
 
+#include "spectrum.h"
 #include <math.h>
 
 static double mean_of(const double* series, size_t num_samples)
@@ -39,23 +40,44 @@ static double fit_sinusoid(const double* time, const double* series, size_t n, d
     return line->sine * ys + line->cosine * yc;
 }
 
-sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t num_samples)
+/// The bin from which on two neighbours hold the most: a line between two bins is in both.
+static size_t strongest_bin(const spectrum_t* spectrum, double least_frequency)
 {
-    enum { MOST_LINES = 1500 };
-    const double duration = time[num_samples - 1] - time[0];
-    const double mean = mean_of(series, num_samples);
-    sinusoid_t best = {0};
+    size_t best = 0;
     double most = -1;
-    const size_t lines = num_samples / 2 < MOST_LINES ? num_samples / 2 : MOST_LINES;
-    for (size_t k = 0; k < lines; k++) {
-        sinusoid_t line = {.frequency = (4 + 0.5 * (double)k) / duration};
-        const double energy = fit_sinusoid(time, series, num_samples, mean, &line);
-        if (energy > most) {
+    for (size_t bin = 1; bin + 1 < spectrum->num_bins; bin++) {
+        const double energy = spectrum_energy(spectrum, bin) + spectrum_energy(spectrum, bin + 1);
+        if (((double)bin + 0.5) * spectrum->resolution >= least_frequency && energy > most) {
             most = energy;
-            best = line;
+            best = bin;
         }
     }
     return best;
+}
+
+sinusoid_t strongest_sinusoid(const double* time, double step, const double* series, size_t num_samples)
+{
+    spectrum_t spectrum = spectrum_new(time, step, series, num_samples);
+    const double least = 4 / (time[num_samples - 1] - time[0]);
+    const double bin = (double)strongest_bin(&spectrum, least);
+    const double mean = mean_of(series, num_samples);
+    double low = fmax((bin - 0.5) * spectrum.resolution, least);
+    double high = fmax((bin + 1.5) * spectrum.resolution, least);
+    spectrum_free(&spectrum);
+    // Within a line's width its energy has one maximum. 22 thirds leave 3e-4 of the width.
+    for (int i = 0; i < 22; i++) {
+        sinusoid_t left = {.frequency = low + (high - low) / 3};
+        sinusoid_t right = {.frequency = high - (high - low) / 3};
+        if (fit_sinusoid(time, series, num_samples, mean, &left) <
+            fit_sinusoid(time, series, num_samples, mean, &right)) {
+            low = left.frequency;
+        } else {
+            high = right.frequency;
+        }
+    }
+    sinusoid_t line = {.frequency = 0.5 * (low + high)};
+    (void)fit_sinusoid(time, series, num_samples, mean, &line);
+    return line;
 }
 
 double sinusoid_share(const double* time, const double* series, size_t num_samples, double frequency)

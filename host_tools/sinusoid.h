@@ -9,8 +9,8 @@ typedef struct {
     double frequency, sine, cosine;
 } sinusoid_t;
 
-/// The strongest line between four periods a record and a quarter of the sample rate.
-sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t num_samples);
+/// The strongest line from four periods a record on. step: the times' median step, which sets the highest.
+sinusoid_t strongest_sinusoid(const double* time, double step, const double* series, size_t num_samples);
 /// The part of the series' variance, 0 ... 1, in the line of this frequency.
 double sinusoid_share(const double* time, const double* series, size_t num_samples, double frequency);
 
