@@ -34,7 +34,12 @@ static void print_report(const diagnosis_t* d, const model_t* model)
 {
     printf("gap: rmse %.6g %s, %.3g %% of the output's range; noise and known misfit account for %.6g\n",
            d->rmse, model->output_unit, 100 * d->relative, d->noise_floor);
-    if (d->num_judged < d->num_samples) {
+    if (d->scope.first_judged > 0) {
+        printf("left out: the first %zu samples, whose memory is as unknown as that of the calibration's "
+               "start\n",
+               d->scope.first_judged);
+    }
+    if (d->num_judged + d->scope.first_judged < d->num_samples) {
         printf("judged by %zu of %zu samples, in full-rate stretches spread over the record\n", d->num_judged,
                d->num_samples);
     }
@@ -282,6 +287,7 @@ static outcome_t run_on(const options_t* given, const model_t* model, const char
         outcome = record_read(paths[1], &wanted, &record);
     }
     if (outcome == OUTCOME_OK) {
+        command_warn_outside(model, &record);
         outcome = find_and_report(given, paths, model, &record, &options, chain);
     }
     record_free(&calibration);

@@ -26,20 +26,6 @@ static fit_t compare(const double* measured, const double* modelled, size_t num_
     return fit;
 }
 
-static void warn_outside(const model_t* model, const record_t* record)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < record->num_samples; ++i) {
-        count += record->input[i] < model->input_min || record->input[i] > model->input_max ? 1 : 0;
-    }
-    if (count > 0) {
-        message_warning(
-            (location_t){.file = record->path},
-            "%zu of %zu inputs lie outside the model's range %.9g ... %.9g, where its curves are continued",
-            count, record->num_samples, model->input_min, model->input_max);
-    }
-}
-
 static outcome_t write_simulated(const char* path, const record_t* record, const double* output)
 {
     record_column_t* columns = xcalloc(record->num_auxiliary + 3, sizeof *columns);
@@ -72,7 +58,7 @@ static void report(const model_run_t* run, const double* output)
 
 static outcome_t simulate(const model_run_t* run)
 {
-    warn_outside(run->model, run->record);
+    command_warn_outside(run->model, run->record);
     double* output = xcalloc(run->record->num_samples, sizeof(double));
     effect_run_t over = effect_run_new(run->model, run->record);
     effect_simulate(&over, run->model, run->start, run->uses, run->num_uses, output);

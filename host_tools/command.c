@@ -142,3 +142,17 @@ outcome_t command_refuse_effects(const char* path, const model_t* model, const c
                          "the model has effects (\"%s\" first), expected %s", json_string_value(type),
                          expected);
 }
+
+void command_warn_outside(const model_t* model, const record_t* record)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < record->num_samples; ++i) {
+        count += record->input[i] < model->input_min || record->input[i] > model->input_max ? 1 : 0;
+    }
+    if (count > 0) {
+        message_warning(
+            (location_t){.file = record->path},
+            "%zu of %zu inputs lie outside the model's range %.9g ... %.9g, where its curves are continued",
+            count, record->num_samples, model->input_min, model->input_max);
+    }
+}

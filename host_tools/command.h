@@ -47,5 +47,7 @@ outcome_t command_refuse_effects(const char* path, const model_t* model, const c
         "sample-rate", 0, POPT_ARG_DOUBLE, rate_variable, OPTION_SAMPLE_RATE,                                \
             "samples per second where there is no time column", "HZ"                                         \
     }
+/// Warns of inputs beyond the model's range, with their number.
+void command_warn_outside(const model_t* model, const record_t* record);
 
 #endif

@@ -3,6 +3,7 @@
 #include "diagnose_body.h"
 #include "diagnose_check.h"
 #include "diagnose_grid.h"
+#include "diagnose_scope.h"
 #include "diagnose_search.h"
 #include "diagnose_structure.h"
 #include "diagnose_verdict.h"
@@ -27,6 +28,7 @@ static const double independent_pieces = 150;
 typedef struct {
     const diagnose_options_t* options;
     const record_t* record;
+    scope_t scope;
     effect_run_t whole; ///< over the record
     thinned_t thinned;
     effect_run_t run; ///< over what is judged
@@ -133,6 +135,15 @@ static void set_shrink(const work_t* w, cause_t* cause)
     cause->shrink_high = fmax(1 - sqrt(part.low), cause->shrink);
 }
 
+/// Where the model fails on work that it was not identified for, no effect can be named with confidence.
+static void mind_scope(const work_t* w, diagnosis_t* d)
+{
+    if (!d->is_none) {
+        d->confident = d->confident && scope_is_known(&w->scope);
+        scope_advise(&w->scope, w->gap.model, d->advice, sizeof d->advice);
+    }
+}
+
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
@@ -140,13 +151,14 @@ static void advise(const work_t* w, diagnosis_t* d)
         return;
     }
     d->next = next_input_find(&w->gap, d->cause[0].hypothesis, d->cause[1].hypothesis);
-    snprintf(d->advice, sizeof d->advice,
-             "apply %s: there the two leading explanations differ by %.3g in the output (noise and known "
+    const size_t length = strlen(d->advice);
+    snprintf(d->advice + length, sizeof d->advice - length,
+             "%sapply %s: there the two leading explanations differ by %.3g in the output (noise and known "
              "misfit: %.3g)",
-             d->next.what, d->next.separation, d->noise_floor);
+             length > 0 ? "; then " : "", d->next.what, d->next.separation, d->noise_floor);
 }
 
-/// The gap of the model over the whole record, allocated.
+/// The gap of the model over the whole record, none where it is not judged at the start; allocated.
 static double* whole_gap(const work_t* w)
 {
     const size_t n = w->whole.num_samples;
@@ -154,7 +166,7 @@ static double* whole_gap(const work_t* w)
     double* difference = xmalloc(n * sizeof *difference);
     simulate_model(w, &w->whole, &none, difference);
     for (size_t t = 0; t < n; t++) {
-        difference[t] = w->record->output[t] - difference[t];
+        difference[t] = t >= w->scope.first_judged ? w->record->output[t] - difference[t] : 0;
     }
     return difference;
 }
@@ -191,6 +203,7 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
     }
     d->num_samples = w->record->num_samples;
     d->num_judged = w->gap.num_judged;
+    d->scope = w->scope;
     d->rmse = w->plain_rmse;
     d->relative = d->rmse / (high - low);
     d->noise = sqrt(w->scale.noise);
@@ -202,7 +215,7 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
 static void fit_on_whole(const work_t* w, const cause_t* verdict)
 {
     const nuisance_t nothing = {0};
-    thinned_t fitted = record_thin(w->record, most_fitted);
+    thinned_t fitted = record_thin(w->record, most_fitted, w->scope.first_judged);
     effect_run_t run = effect_run_new(w->gap.model, &fitted.record);
     run.fast = w->run.fast;
     run.body = w->run.body;
@@ -227,14 +240,16 @@ static json_int_t first_fitted(const model_t* model)
 static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
 {
     const diagnose_options_t* options = w->options;
+    w->scope = scope_of(model, options->calibration, w->record);
     w->whole = effect_run_new(model, w->record);
     w->whole.fast = fast;
-    w->thinned = record_thin(w->record, most_judged);
+    w->thinned = record_thin(w->record, most_judged, w->scope.first_judged);
     w->run = effect_run_new(model, &w->thinned.record);
     w->run.fast = fast;
+    w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
-    // A body cannot be learned from loops whose past is unknown.
-    if (options->calibration != NULL && first_fitted(model) == 0) {
+    // A body cannot be learned from loops whose past is unknown, nor for work that they have none of.
+    if (options->calibration != NULL && first_fitted(model) == 0 && scope_is_known(&w->scope)) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, &w->thinned.record);
         w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
@@ -331,9 +346,10 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     for (size_t k = 0; k < d->num_causes; k++) {
         set_shrink(&w, &d->cause[k]);
     }
+    mind_scope(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
-    if (w.thinned.carried != NULL) {
+    if (w.thinned.record.num_samples < record->num_samples) {
         fit_on_whole(&w, &d->cause[0]);
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);

@@ -5,6 +5,7 @@
 
 #include "diagnose_hypothesis.h"
 #include "diagnose_next.h"
+#include "diagnose_scope.h"
 #include "diagnose_where.h"
 
 typedef struct {
@@ -30,6 +31,7 @@ typedef struct {
 typedef struct {
     size_t num_samples; ///< of the record
     size_t num_judged;  ///< that the causes were judged by: all, or those of its stretches (record_thin.h)
+    scope_t scope;
     double rmse, relative, noise, noise_floor, closable;
     size_t num_regions;
     region_t region[WHERE_MAX_REGIONS];

@@ -235,6 +235,19 @@ static size_t count_fitted(const search_t* s)
     return count;
 }
 
+static bool is_another(const hypothesis_t* hypothesis, const effect_run_t* run)
+{
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        const effect_t* effect = hypothesis->use[i].effect;
+        const double* parameter = hypothesis->use[i].parameter;
+        if ((effect->is_another != NULL && effect->is_another(parameter)) ||
+            (effect->follows_input != NULL && effect->follows_input(run, parameter))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations)
 {
     search_t s = search_new(hypothesis, gap, held_out);
@@ -270,6 +283,7 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
         sum += residual[t] * residual[t];
     }
     hypothesis->fit_rmse = sqrt(sum / (double)count_fitted(&s));
+    hypothesis->is_another = is_another(hypothesis, gap->run);
     free(work);
     search_free(&s);
 }
@@ -324,17 +338,6 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
     hypothesis_predict(hypothesis, gap);
 }
 
-static bool is_another(const hypothesis_t* hypothesis)
-{
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        const effect_use_t* use = &hypothesis->use[i];
-        if (use->effect->is_another != NULL && use->effect->is_another(use->parameter)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
 {
     search_t s = search_new(hypothesis, gap, -1);
@@ -345,7 +348,6 @@ void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
         hypothesis->predicted[t] += gap->output[t];
     }
     search_free(&s);
-    hypothesis->is_another = is_another(hypothesis);
 }
 
 double hypothesis_mean_square(const hypothesis_t* hypothesis)

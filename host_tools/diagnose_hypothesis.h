@@ -35,7 +35,7 @@ typedef struct {
     size_t num_uses; ///< 0: the plain model
     effect_use_t use[HYPOTHESIS_MAX_EFFECTS];
     double fit_rmse; ///< fitted to the whole record, the price of what the body leaves open included
-    bool is_another; ///< an effect's parameters make it another effect
+    bool is_another; ///< an effect's parameters make it another effect, or an answer to the input
     double block_error[HYPOTHESIS_BLOCKS]; ///< sum of squares of each block, predicted by a fit to the other
                                            ///< folds with the memory carried over; by hypothesis_judge
     double* predicted; ///< [num_samples] by the fit to the whole record, with what the body leaves open
@@ -51,11 +51,12 @@ bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b);
 
 /// The effects' parameters at their start values (start 0 ... 2); neutral when start is -1.
 void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start);
-/// Fits from the present parameters to all blocks but those of `held_out` (-1: to all); sets fit_rmse.
+/// Fits from the present parameters to all blocks but those of `held_out` (-1: to all); sets fit_rmse
+/// and is_another.
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
 /// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
-/// Fills `predicted` and `is_another` for the present parameters.
+/// Fills `predicted` for the present parameters.
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap);
 /// Mean square by which it is weighed: with what the body leaves open priced, `fit_rmse` is the record's
 /// marginal likelihood. Infinite for one that is another.

@@ -80,6 +80,15 @@ static json_t* verdict_json(const diagnosis_t* d)
                      "indistinguishable", sets, "advice", d->advice);
 }
 
+static json_t* gap_json(const diagnosis_t* d)
+{
+    return json_pack("{s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "samples",
+                     (json_int_t)d->num_samples, "samples_judged", (json_int_t)d->num_judged, "first_judged",
+                     (json_int_t)d->scope.first_judged, "beyond_calibration", d->scope.beyond, "unvisited",
+                     d->scope.unvisited, "rmse", d->rmse, "relative", d->relative, "noise", d->noise,
+                     "noise_floor", d->noise_floor, "closable", d->closable);
+}
+
 json_t* diagnosis_to_json(const diagnosis_t* d)
 {
     json_t* where = json_array();
@@ -90,11 +99,8 @@ json_t* diagnosis_to_json(const diagnosis_t* d)
     for (size_t k = 0; k < d->num_causes; k++) {
         json_array_append_new(causes, cause_json(&d->cause[k]));
     }
-    return json_pack("{s:s, s:i, s:{s:I, s:I, s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o}", "format",
-                     "hyst-diagnosis", "version", 1, "gap", "samples", (json_int_t)d->num_samples,
-                     "samples_judged", (json_int_t)d->num_judged, "rmse", d->rmse, "relative", d->relative,
-                     "noise", d->noise, "noise_floor", d->noise_floor, "closable", d->closable, "where",
-                     where, "causes", causes, "verdict", verdict_json(d));
+    return json_pack("{s:s, s:i, s:o, s:o, s:o, s:o}", "format", "hyst-diagnosis", "version", 1, "gap",
+                     gap_json(d), "where", where, "causes", causes, "verdict", verdict_json(d));
 }
 
 json_t* budget_to_json(const budget_t* budget)

@@ -1,14 +1,14 @@
 #include "diagnose_search.h"
 
-#include "diagnose_structure.h"
 #include "parallel.h"
+#include "sinusoid.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
-enum { SINGLE_EVALUATIONS = 40, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
+enum { ITERATIONS = 20, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
 
 static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
 {
@@ -35,6 +35,16 @@ void candidates_free(candidates_t* candidates)
     *candidates = (candidates_t){0};
 }
 
+/// An iteration takes one evaluation and one for each parameter's difference.
+static int evaluations_of(const hypothesis_t* hypothesis)
+{
+    int evaluations = ITERATIONS;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        evaluations += ITERATIONS * (int)hypothesis->use[i].effect->num_parameters;
+    }
+    return evaluations;
+}
+
 static double mean_of(const double* values, size_t count)
 {
     double mean = 0;
@@ -56,7 +66,7 @@ static bool guess_parameters(const candidates_t* c, const double* predicted, eff
     for (size_t t = 0; t < run->num_samples; t++) {
         difference[t] = c->gap->output[t] - predicted[t];
     }
-    const sinusoid_t peak = strongest_sinusoid(run->time, difference, run->num_samples);
+    const sinusoid_t peak = strongest_sinusoid(run->time, run->sample_time, difference, run->num_samples);
     free(difference);
     const double guess[EFFECT_MAX_PARAMETERS] = {peak.frequency, peak.sine, peak.cosine};
     memcpy(use->parameter, guess, sizeof guess);
@@ -85,7 +95,7 @@ static void try_single(void* context, size_t index)
     const candidates_t* c = context;
     hypothesis_t* hypothesis = &c->hypothesis[index + 1];
     const bool guessed = guess_parameters(c, c->hypothesis[0].predicted, &hypothesis->use[0]);
-    hypothesis_search(hypothesis, c->gap, guessed, SINGLE_EVALUATIONS);
+    hypothesis_search(hypothesis, c->gap, guessed, evaluations_of(hypothesis));
 }
 
 void candidates_add_singles(candidates_t* c)
@@ -146,9 +156,7 @@ typedef struct {
 
 static int by_fit(const void* a, const void* b)
 {
-    const double x = ((const extension_t*)a)->fitted.fit_rmse;
-    const double y = ((const extension_t*)b)->fitted.fit_rmse;
-    return (x > y) - (x < y);
+    return by_mean_square(&((const extension_t*)a)->fitted, &((const extension_t*)b)->fitted);
 }
 
 static hypothesis_t joined(const hypothesis_t* base, const hypothesis_t* further)
@@ -172,7 +180,7 @@ static void try_extension(void* context, size_t index)
     memcpy(from_start.use, e->base->use, e->base->num_uses * sizeof *from_start.use);
     (void)guess_parameters(c, e->base->predicted, &from_start.use[e->base->num_uses]);
     hypothesis_fit(&from_start, c->gap, -1, BRIEF_EVALUATIONS);
-    e->fitted = from_start.fit_rmse < e->fitted.fit_rmse ? from_start : e->fitted;
+    e->fitted = by_mean_square(&from_start, &e->fitted) < 0 ? from_start : e->fitted;
 }
 
 /// Which mechanism of a name fits best beside another effect need not be the one that did alone.
@@ -197,11 +205,12 @@ static void refine(void* context, size_t index)
     hypothesis_t* hypothesis = &extensions->refined[index];
     hypothesis_t brief = extensions->extension[index].fitted;
     try_other_mechanisms(extensions->c, &extensions->extension[index], &brief);
-    hypothesis_fit(&brief, gap, -1, SINGLE_EVALUATIONS);
-    hypothesis_search(hypothesis, gap, false, SINGLE_EVALUATIONS);
+    hypothesis_fit(&brief, gap, -1, evaluations_of(&brief));
+    hypothesis_search(hypothesis, gap, false, evaluations_of(hypothesis));
     if (brief.fit_rmse < hypothesis->fit_rmse) {
         memcpy(hypothesis->use, brief.use, sizeof hypothesis->use);
         hypothesis->fit_rmse = brief.fit_rmse;
+        hypothesis->is_another = brief.is_another;
         hypothesis_predict(hypothesis, gap);
     }
 }

@@ -10,12 +10,5 @@ double structure_found(const gap_t* gap, const double* predicted, const double* 
 /// Standard deviation of the white part of a signal that is otherwise smooth, from the median of its second
 /// differences.
 double white_noise(const double* signal, size_t num_samples);
-/// sine * sin(2 pi frequency t) + cosine * cos(2 pi frequency t), t the given times.
-typedef struct {
-    double frequency, sine, cosine;
-} sinusoid_t;
-/// The strongest line of a series' least-squares spectrum, between four periods a record and a quarter of the
-/// sample rate.
-sinusoid_t strongest_sinusoid(const double* time, const double* series, size_t num_samples);
 
 #endif

@@ -36,6 +36,7 @@ typedef struct {
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
     const stand_in_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they
                             ///< do on the model's; or NULL
+    double input_frequency;   ///< for searches: of the line that carries most of the input [Hz]; 0: none does
     const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
 } effect_run_t;
 
@@ -76,6 +77,9 @@ struct effect {
     /// Whether these parameters make it another effect of the catalogue (creep of one time constant is a
     /// lag), so that a fit that ends there says nothing for this one. May be NULL.
     bool (*is_another)(const double* parameter);
+    /// Whether with these parameters it cannot be told from an answer to the run's own input, though it is
+    /// meant to be unrelated to it: such a fit says nothing for it either. May be NULL.
+    bool (*follows_input)(const effect_run_t* run, const double* parameter);
     /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column, centred on its first
     /// value [num_samples], or NULL.
     void (*apply)(const effect_run_t* run, const double* parameter, const double* column, double* series);

@@ -3,7 +3,7 @@
 ///     1, 2, 3
 /// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time.
 /// frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and half the sample
-/// rate; amplitudes [output units].
+/// rate; amplitudes [output units]. Lines at multiples of a periodic input's frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -61,6 +61,27 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     add(run, parameter, -1.0, series);
 }
 
+/// Whether the record cannot tell the frequency from a whole multiple of the input's: an answer to a periodic
+/// input has lines there and nowhere else, in one phase for as long as the record lasts.
+static bool is_multiple_of_input(const effect_run_t* run, double frequency)
+{
+    const double multiple = round(frequency / run->input_frequency);
+    return multiple >= 1.0 && fabs(frequency - multiple * run->input_frequency) < 0.5 / run->duration;
+}
+
+static bool follows_input(const effect_run_t* run, const double* parameter)
+{
+    double energy = 0.0;
+    double locked = 0.0;
+    for (int h = 0; run->input_frequency > 0.0 && h < HARMONICS; ++h) {
+        const double* amplitude = &parameter[AMPLITUDE_SIN + 2 * h];
+        const double line = amplitude[0] * amplitude[0] + amplitude[1] * amplitude[1];
+        energy += line;
+        locked += is_multiple_of_input(run, (h + 1) * parameter[FREQUENCY]) ? line : 0.0;
+    }
+    return locked > 0.5 * energy;
+}
+
 const effect_t effect_periodic_disturbance = {
     .name = "periodic_disturbance",
     .stage = EFFECT_SENSOR,
@@ -70,5 +91,6 @@ const effect_t effect_periodic_disturbance = {
     .limits = limits,
     .apply = apply,
     .invert = invert,
+    .follows_input = follows_input,
     .covers = 0.5, // on periodic work its harmonics follow what the body itself does beside the model
 };

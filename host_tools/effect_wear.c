@@ -6,7 +6,8 @@
 ///                 point of rest
 /// spans: the input's travel since the record's start over the width of the model's input range; S, S_m as
 /// for noncongruency; y_m, half: middle and half of the model's output between its two saturations. pivot
-/// [1]. rate [1 per span of travel], fitted to a factor of e^2 either way over the record.
+/// [1], fitted to at most a quarter of their distance beyond them: fading about a point further away is a
+/// drift. rate [1 per span of travel], fitted to a factor of e^2 either way over the record.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -32,7 +33,7 @@ static void response_limits(const effect_run_t* run, size_t parameter, effect_li
     if (parameter == RATE) {
         limits(run, parameter, result);
     } else {
-        *result = limits_linear(-3.0, 3.0, 0.0, -0.5, 0.5, -1.0);
+        *result = limits_linear(-1.5, 1.5, 0.0, -0.5, 0.5, -1.0);
     }
 }
 

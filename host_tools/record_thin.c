@@ -120,27 +120,25 @@ static size_t count_kept(const choice_t* choice, size_t num_samples)
     return count;
 }
 
-thinned_t record_thin(const record_t* record, size_t most)
+thinned_t record_thin(const record_t* record, size_t most, size_t first_judged)
 {
     const size_t n = record->num_samples;
     choice_t choice = {record->input, xcalloc(n, 1)};
     thinned_t thinned = {0};
     if (n <= most) {
         memset(choice.fate, JUDGED, n);
-        thinned.record = kept_record(&choice, record, n);
-        free(choice.fate);
-        return thinned;
+    } else {
+        choose(&choice, n, most);
     }
-    choose(&choice, n, most);
     const size_t num_kept = count_kept(&choice, n);
     thinned.record = kept_record(&choice, record, num_kept);
-    if (thinned.record.time == NULL) {
+    if (thinned.record.time == NULL && num_kept < n) {
         thinned.record.time = kept_numbers(&choice, n, num_kept);
     }
-    thinned.carried = xmalloc(num_kept * sizeof *thinned.carried);
-    for (size_t t = 0, k = 0; t < n; t++) {
+    thinned.carried = num_kept < n || first_judged > 0 ? xmalloc(num_kept * sizeof *thinned.carried) : NULL;
+    for (size_t t = 0, k = 0; thinned.carried != NULL && t < n; t++) {
         if (choice.fate[t] != LEFT_OUT) {
-            thinned.carried[k++] = choice.fate[t] == CARRIED;
+            thinned.carried[k++] = choice.fate[t] == CARRIED || t < first_judged;
         }
     }
     free(choice.fate);

@@ -17,7 +17,8 @@ typedef struct {
 /// - before each of them cells, short ones next to it and longer ones further back, and of each cell the
 ///   samples of the least and the greatest input. So every turning point that a later move does not wipe out
 ///   is kept but for those within a cell, and a fading memory sees its recent past more finely.
-thinned_t record_thin(const record_t* record, size_t most);
+/// Samples before the record's first_judged are carried.
+thinned_t record_thin(const record_t* record, size_t most, size_t first_judged);
 void thinned_free(thinned_t* thinned);
 
 #endif

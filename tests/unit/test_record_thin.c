@@ -56,7 +56,7 @@ static size_t number_of(size_t kept)
 static void test_a_short_record_stays_as_it_is(void)
 {
     record.num_samples = MOST;
-    thinned = record_thin(&record, MOST);
+    thinned = record_thin(&record, MOST, 0);
     TEST_ASSERT_EQUAL(MOST, thinned.record.num_samples);
     TEST_ASSERT_NULL(thinned.carried);
     TEST_ASSERT_EQUAL_MEMORY(time_of, thinned.record.time, MOST * sizeof *time_of);
@@ -67,12 +67,30 @@ static void test_a_short_record_stays_as_it_is(void)
     TEST_ASSERT_EQUAL_STRING(path, thinned.record.path);
 }
 
+static void test_a_start_that_is_not_to_be_judged_is_carried(void)
+{
+    static const size_t lengths[] = {MOST, SAMPLES};
+    const size_t first = 5000; // beyond the first stretch of the long one
+    for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
+        record.num_samples = lengths[i];
+        thinned_t all = record_thin(&record, MOST, 0);
+        thinned = record_thin(&record, MOST, first);
+        TEST_ASSERT_EQUAL(all.record.num_samples, thinned.record.num_samples);
+        for (size_t k = 0; k < thinned.record.num_samples; k++) {
+            const bool was_carried = all.carried != NULL && all.carried[k];
+            TEST_ASSERT_EQUAL(was_carried || number_of(k) < first, thinned.carried[k]);
+        }
+        thinned_free(&all);
+        thinned_free(&thinned);
+    }
+}
+
 static void test_what_is_kept_is_the_record_s_own_in_order(void)
 {
     static const size_t lengths[] = {MOST + 1, 3 * MOST, SAMPLES};
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         record.num_samples = lengths[i];
-        thinned = record_thin(&record, MOST);
+        thinned = record_thin(&record, MOST, 0);
         TEST_ASSERT_TRUE(thinned.record.num_samples <= MOST);
         TEST_ASSERT_EQUAL(0, number_of(0));
         TEST_ASSERT_EQUAL(lengths[i] - 1, number_of(thinned.record.num_samples - 1));
@@ -90,7 +108,7 @@ static void test_what_is_kept_is_the_record_s_own_in_order(void)
 /// Twelve stretches at full rate, of each but the first its first quarter carried.
 static void test_judged_samples_lie_in_stretches(void)
 {
-    thinned = record_thin(&record, MOST);
+    thinned = record_thin(&record, MOST, 0);
     size_t judged = 0;
     size_t stretches = 0;
     for (size_t k = 0; k < thinned.record.num_samples; k++) {
@@ -122,7 +140,7 @@ static void test_plays_run_as_on_the_whole_record(void)
     }
     static double whole[SAMPLES];
     static double short_of[MOST];
-    thinned = record_thin(&record, MOST);
+    thinned = record_thin(&record, MOST, 0);
     reference_run(&model, START_NEGATIVE_SATURATION, input, SAMPLES, whole);
     reference_run(&model, START_NEGATIVE_SATURATION, thinned.record.input, thinned.record.num_samples,
                   short_of);
@@ -135,7 +153,7 @@ static void test_plays_run_as_on_the_whole_record(void)
 static void test_a_record_without_time_counts_its_samples(void)
 {
     record.time = NULL;
-    thinned = record_thin(&record, MOST);
+    thinned = record_thin(&record, MOST, 0);
     for (size_t k = 0; k < thinned.record.num_samples; k++) {
         TEST_ASSERT_EQUAL_DOUBLE((double)number_of(k), thinned.record.time[k]);
     }
@@ -145,6 +163,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_short_record_stays_as_it_is);
+    RUN_TEST(test_a_start_that_is_not_to_be_judged_is_carried);
     RUN_TEST(test_what_is_kept_is_the_record_s_own_in_order);
     RUN_TEST(test_judged_samples_lie_in_stretches);
     RUN_TEST(test_plays_run_as_on_the_whole_record);
