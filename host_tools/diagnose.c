@@ -92,6 +92,22 @@ static void judge_causes(const work_t* w, const diagnosis_t* d)
     }
 }
 
+/// How far each cause shrinks the gap; the verdict hands out nothing where it is not sure and the gap is no
+/// more than the model is known to leave.
+static void forecast_causes(const work_t* w, diagnosis_t* d)
+{
+    const bool held_out = !has_another_body(w) && !(w->grid.step > 0);
+    double* average = xmalloc(w->run.num_samples * sizeof *average);
+    shrink_average(&w->gap, d->cause, d->num_causes, average);
+    for (size_t i = 0; i < HYPOTHESIS_MAX_EFFECTS; i++) {
+        d->cause[0].is_kept_back[i] = !d->confident && !(d->closable > 0);
+    }
+    for (size_t k = 0; k < d->num_causes; k++) {
+        shrink_find(&w->gap, w->plain_error, held_out, k == 0 ? average : NULL, &d->cause[k]);
+    }
+    free(average);
+}
+
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
@@ -284,10 +300,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     describe_gap(&w, d);
     verdict_find(&w.scale, &w.candidates, d);
     judge_causes(&w, d);
-    for (size_t k = 0; k < d->num_causes; k++) {
-        const bool held_out = !has_another_body(&w) && !(w.grid.step > 0);
-        shrink_find(&w.gap, w.plain_error, held_out, k > 0 || !d->confident, &d->cause[k]);
-    }
+    forecast_causes(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
     if (w.thinned.carried != NULL) {

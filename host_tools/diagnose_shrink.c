@@ -5,10 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// An effect of a doubtful cause is not handed out where it might make another record worse by more than
-/// this.
-static const double bearable = 0.02;
-
 void shrink_simulate(const gap_t* gap, const effect_run_t* run, const effect_use_t* uses, size_t num_uses,
                      double* output)
 {
@@ -18,16 +14,41 @@ void shrink_simulate(const gap_t* gap, const effect_run_t* run, const effect_use
     effect_simulate(&alone, gap->model, gap->start, uses, num_uses, output);
 }
 
+/// Sum of squares of each block between two series, over the judged samples.
+static void block_distances(const gap_t* gap, const double* a, const double* b, double* square)
+{
+    size_t t = 0;
+    for (size_t k = 0; k < HYPOTHESIS_BLOCKS; k++) {
+        square[k] = 0;
+        for (; t < gap->block_end[k]; t++) {
+            const double e = gap_is_judged(gap, t) ? a[t] - b[t] : 0;
+            square[k] += e * e;
+        }
+    }
+}
+
 void shrink_block_errors(const gap_t* gap, const effect_use_t* uses, size_t num_uses, double* error)
 {
     double* predicted = xmalloc(gap->run->num_samples * sizeof *predicted);
     shrink_simulate(gap, gap->run, uses, num_uses, predicted);
-    size_t t = 0;
-    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        error[b] = 0;
-        for (; t < gap->block_end[b]; t++) {
-            const double e = gap_is_judged(gap, t) ? predicted[t] - gap->output[t] : 0;
-            error[b] += e * e;
+    block_distances(gap, predicted, gap->output, error);
+    free(predicted);
+}
+
+void shrink_average(const gap_t* gap, const cause_t* cause, size_t num_causes, double* average)
+{
+    const size_t n = gap->run->num_samples;
+    double* predicted = xmalloc(n * sizeof *predicted);
+    double total = 0;
+    for (size_t t = 0; t < n; t++) {
+        average[t] = 0;
+    }
+    for (size_t k = 0; k < num_causes; k++) {
+        const hypothesis_t* h = cause[k].hypothesis;
+        shrink_simulate(gap, gap->run, h->use, h->num_uses, predicted);
+        total += cause[k].probability;
+        for (size_t t = 0; t < n; t++) {
+            average[t] += cause[k].probability / total * (predicted[t] - average[t]);
         }
     }
     free(predicted);
@@ -53,48 +74,57 @@ static double sum_of(const double* values)
     return sum;
 }
 
-/// What the effects still handed out leave.
-static void errors_of(const gap_t* gap, const cause_t* cause, double* error)
+static void predict(const gap_t* gap, const cause_t* cause, double* predicted)
 {
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
     const size_t count = cause_handed_out(cause, uses);
-    shrink_block_errors(gap, uses, count, error);
+    shrink_simulate(gap, gap->run, uses, count, predicted);
 }
 
-/// Keeps back the first effect that does harm: without it the record itself is met better (an output rounded
-/// like the plant's is only nearer to it where the model is off by less than half a step), or, of a doubtful
-/// cause, another record may be made worse. Returns whether there was one.
-static bool keep_one_back(const gap_t* gap, bool doubtful, cause_t* cause)
+static bool is_nearer(const gap_t* gap, const double* a, const double* b, const double* target)
 {
-    double with[HYPOTHESIS_BLOCKS];
-    double without[HYPOTHESIS_BLOCKS];
-    errors_of(gap, cause, with);
-    for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
+    double of_a[HYPOTHESIS_BLOCKS];
+    double of_b[HYPOTHESIS_BLOCKS];
+    block_distances(gap, a, target, of_a);
+    block_distances(gap, b, target, of_b);
+    return sum_of(of_a) < sum_of(of_b);
+}
+
+/// Keeps back the first effect that does harm: without it the record is met better, or what is expected of
+/// all causes together. Returns whether there was one.
+static bool keep_one_back(const gap_t* gap, const double* average, cause_t* cause)
+{
+    const size_t n = gap->run->num_samples;
+    double* with = xmalloc(n * sizeof *with);
+    double* without = xmalloc(n * sizeof *without);
+    bool kept = false;
+    predict(gap, cause, with);
+    for (size_t i = 0; !kept && i < cause->hypothesis->num_uses; i++) {
         if (cause->is_kept_back[i]) {
             continue;
         }
         cause->is_kept_back[i] = true;
-        errors_of(gap, cause, without);
-        const forecast_t own = forecast_shrink(with, without, HYPOTHESIS_BLOCKS);
-        if (own.shrink < 0 || (doubtful && own.low < -bearable)) {
-            return true;
-        }
-        cause->is_kept_back[i] = false;
+        predict(gap, cause, without);
+        kept = is_nearer(gap, without, with, gap->output) ||
+               (average != NULL && is_nearer(gap, without, with, average));
+        cause->is_kept_back[i] = kept;
     }
-    return false;
+    free(with);
+    free(without);
+    return kept;
 }
 
-void shrink_find(const gap_t* gap, const double* plain, bool held_out, bool doubtful, cause_t* cause)
+void shrink_find(const gap_t* gap, const double* plain, bool held_out, const double* average, cause_t* cause)
 {
     double left[HYPOTHESIS_BLOCKS];
-    bool is_whole = true;
-    while (keep_one_back(gap, doubtful, cause)) {
-        is_whole = false;
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    while (keep_one_back(gap, average, cause)) {
     }
-    if (held_out && is_whole) {
+    const size_t count = cause_handed_out(cause, uses);
+    if (held_out && count == cause->hypothesis->num_uses) {
         memcpy(left, cause->hypothesis->block_error, sizeof left);
     } else {
-        errors_of(gap, cause, left);
+        shrink_block_errors(gap, uses, count, left);
     }
     const forecast_t forecast = forecast_shrink(left, plain, HYPOTHESIS_BLOCKS);
     cause->rmse_after = sqrt(sum_of(left) / (double)gap->num_judged);

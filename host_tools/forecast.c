@@ -3,7 +3,7 @@
 #include <math.h>
 
 /// Student's t at 95 % for FORECAST_STRETCHES - 1 degrees of freedom.
-static const double student = 2.015;
+static const double student = 2.353;
 /// Ratios of squares below it count as it: an RMS a millionth of the other's is rounding.
 static const double least_ratio = 1e-12;
 

@@ -7,7 +7,7 @@
 
 /// Contiguous parts of a record that count as independent: work comes in a few kinds, each of its own
 /// stretch.
-enum { FORECAST_STRETCHES = 6 };
+enum { FORECAST_STRETCHES = 4 };
 
 /// 1 - RMS after / RMS before, and a 90 % prediction interval for a record as long as this one.
 typedef struct {
