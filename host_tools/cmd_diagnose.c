@@ -3,8 +3,10 @@
 #include "diagnose_chain.h"
 #include "diagnose_json.h"
 #include "diagnose_report.h"
+#include "diagnose_shrink.h"
 #include "diagnose_structure.h"
 #include "diagnose_text.h"
+#include "diagnose_trial.h"
 #include "model_file.h"
 #include "output_file.h"
 #include "reference.h"
@@ -92,59 +94,43 @@ static outcome_t calibrate(const options_t* given, const model_t* model, record_
 static outcome_t write_augmented(const char* path, const model_t* model, const diagnosis_t* d)
 {
     model_t augmented = model_copy(model);
-    if (!d->is_unknown && d->cause[0].hypothesis->num_uses > 0) {
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
+    if (num_uses > 0) {
         json_decref(augmented.effects);
-        augmented.effects = parameters_to_json(d->cause[0].hypothesis);
+        augmented.effects = parameters_to_json(uses, num_uses);
+    }
+    if (!d->is_unknown && num_uses < d->cause[0].hypothesis->num_uses) {
+        message_note(NOWHERE,
+                     "-o: %zu of the verdict's %zu effects would not help on another record and %s left out",
+                     d->cause[0].hypothesis->num_uses - num_uses, d->cause[0].hypothesis->num_uses,
+                     d->cause[0].hypothesis->num_uses - num_uses == 1 ? "is" : "are");
     }
     const outcome_t outcome = model_write(path, &augmented);
     model_free(&augmented);
     return outcome;
 }
 
-/// The verdict on a record that the diagnosis has not seen.
-typedef struct {
-    bool given;
-    double before, after; ///< RMSE of the plain and of the augmented model
-} realised_t;
-
-static double rmse_on(const effect_run_t* run, const model_t* model, start_t start,
-                      const hypothesis_t* hypothesis, const double* output)
+/// Shrink that came true on the test record.
+static double realised(const trial_t* trial)
 {
-    double* predicted = xmalloc(run->num_samples * sizeof *predicted);
-    effect_simulate(run, model, start, hypothesis != NULL ? hypothesis->use : NULL,
-                    hypothesis != NULL ? hypothesis->num_uses : 0, predicted);
-    double sum = 0;
-    for (size_t t = 0; t < run->num_samples; t++) {
-        sum += (predicted[t] - output[t]) * (predicted[t] - output[t]);
-    }
-    free(predicted);
-    return sqrt(sum / (double)run->num_samples);
+    return trial->before > 0 ? 1 - trial->after / trial->before : 0;
 }
 
-static outcome_t realise(const options_t* given, const model_t* model, start_t start, const diagnosis_t* d,
-                         realised_t* realised)
+static outcome_t run_trial(const options_t* given, const model_t* model, start_t start,
+                           const record_t* record, const diagnosis_t* d, trial_t* trial)
 {
-    if (given->test == NULL) {
-        return OUTCOME_OK;
-    }
-    record_t record = {0};
+    record_t test = {0};
     outcome_t outcome = record_read(given->test,
                                     &(record_options_t){.columns = given->columns,
                                                         .sample_rate = given->sample_rate,
                                                         .needs_input = true,
                                                         .needs_output = true},
-                                    &record);
-    const hypothesis_t* verdict = d->is_unknown ? NULL : d->cause[0].hypothesis;
-    if (outcome == OUTCOME_OK && verdict != NULL) {
-        outcome = effect_check_columns(&record, verdict->use, verdict->num_uses);
-    }
+                                    &test);
     if (outcome == OUTCOME_OK) {
-        effect_run_t run = effect_run_new(model, &record);
-        *realised = (realised_t){true, rmse_on(&run, model, start, NULL, record.output),
-                                 rmse_on(&run, model, start, verdict, record.output)};
-        effect_run_free(&run);
+        outcome = trial_run(model, start, d, record, &test, trial);
     }
-    record_free(&record);
+    record_free(&test);
     return outcome;
 }
 
@@ -161,7 +147,8 @@ static outcome_t write_next_input(const char* path, const diagnosis_t* d)
 /// What a run found out.
 typedef struct {
     diagnosis_t diagnosis;
-    realised_t realised;
+    bool has_trial;
+    trial_t trial;
     bool has_budget;
     budget_t budget;
 } findings_t;
@@ -169,11 +156,12 @@ typedef struct {
 static json_t* findings_json(const findings_t* found)
 {
     json_t* object = diagnosis_to_json(&found->diagnosis);
-    const realised_t* realised = &found->realised;
-    if (realised->given) {
+    const trial_t* trial = &found->trial;
+    if (found->has_trial) {
         json_object_set_new(object, "test",
-                            json_pack("{s:f, s:f, s:f}", "rmse", realised->before, "rmse_after",
-                                      realised->after, "shrink", 1 - realised->after / realised->before));
+                            json_pack("{s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after",
+                                      trial->after, "shrink", realised(trial), "predicted_shrink",
+                                      trial->predicted));
     }
     if (found->has_budget) {
         json_object_set_new(object, "budget", budget_to_json(&found->budget));
@@ -212,9 +200,10 @@ static void print_findings(const options_t* given, const model_t* model, const f
         return;
     }
     print_report(&found->diagnosis, model);
-    if (found->realised.given) {
-        printf("test: rmse %.6g before, %.6g after, shrink %.0f %%\n", found->realised.before,
-               found->realised.after, 100 * (1 - found->realised.after / found->realised.before));
+    if (found->has_trial) {
+        printf("test: rmse %.6g before, %.6g after, shrink %.0f %% (for this input %.0f %% were predicted)\n",
+               found->trial.before, found->trial.after, 100 * realised(&found->trial),
+               100 * found->trial.predicted);
     }
     if (found->has_budget) {
         print_budget(&found->budget);
@@ -242,10 +231,10 @@ static outcome_t find_and_report(const options_t* given, const char** paths, con
                                  const record_t* record, const diagnose_options_t* options,
                                  const chain_t* chain)
 {
-    findings_t found = {.has_budget = given->chain.full != NULL};
+    findings_t found = {.has_trial = given->test != NULL, .has_budget = given->chain.full != NULL};
     outcome_t outcome = diagnose(model, record, options, &found.diagnosis);
-    if (outcome == OUTCOME_OK) {
-        outcome = realise(given, model, options->start, &found.diagnosis, &found.realised);
+    if (outcome == OUTCOME_OK && found.has_trial) {
+        outcome = run_trial(given, model, options->start, record, &found.diagnosis, &found.trial);
     }
     if (outcome == OUTCOME_OK && found.has_budget) {
         outcome = chain_budget(chain, record, options, &found.diagnosis, &found.budget);

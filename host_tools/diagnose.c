@@ -5,11 +5,11 @@
 #include "diagnose_grid.h"
 #include "diagnose_scope.h"
 #include "diagnose_search.h"
+#include "diagnose_shrink.h"
 #include "diagnose_structure.h"
 #include "diagnose_verdict.h"
 #include "parallel.h"
 #include "record_thin.h"
-#include "resample.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -42,15 +42,6 @@ typedef struct {
     double plain_rmse;
 } work_t;
 
-/// The model alone with these effects, whatever body stood in for the judging.
-static void simulate_model(const work_t* w, const effect_run_t* run, const hypothesis_t* h, double* output)
-{
-    effect_run_t alone = *run;
-    alone.body = NULL;
-    alone.correction = NULL;
-    effect_simulate(&alone, w->gap.model, w->gap.start, h->use, h->num_uses, output);
-}
-
 static double sum_of(const double* values, size_t count)
 {
     double sum = 0;
@@ -58,22 +49,6 @@ static double sum_of(const double* values, size_t count)
         sum += values[i];
     }
     return sum;
-}
-
-/// What the model with these effects leaves of each block.
-static void block_errors(const work_t* w, const hypothesis_t* h, double* error)
-{
-    double* predicted = xmalloc(w->run.num_samples * sizeof *predicted);
-    simulate_model(w, &w->run, h, predicted);
-    size_t t = 0;
-    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        error[b] = 0;
-        for (; t < w->gap.block_end[b]; t++) {
-            const double e = gap_is_judged(&w->gap, t) ? predicted[t] - w->gap.output[t] : 0;
-            error[b] += e * e;
-        }
-    }
-    free(predicted);
 }
 
 /// The converter, which add_grid put last, is known: no fit looks for it.
@@ -119,20 +94,20 @@ static void judge_causes(const work_t* w, const diagnosis_t* d)
     }
 }
 
-/// Shrink with its 90 % interval over resampled stretches. Where the model's own plays were judged, what is
-/// left was held out; another body's parameters are put into the model that the user has.
-static void set_shrink(const work_t* w, cause_t* cause)
+/// How far each cause shrinks the gap; the verdict hands out nothing where it is not sure and the gap is no
+/// more than the model is known to leave.
+static void forecast_causes(const work_t* w, diagnosis_t* d)
 {
-    double left[HYPOTHESIS_BLOCKS];
-    memcpy(left, cause->hypothesis->block_error, sizeof left);
-    if (has_another_body(w)) {
-        block_errors(w, cause->hypothesis, left);
+    const bool held_out = !has_another_body(w) && !(w->grid.step > 0);
+    double* average = xmalloc(w->run.num_samples * sizeof *average);
+    shrink_average(&w->gap, d->cause, d->num_causes, average);
+    for (size_t i = 0; i < HYPOTHESIS_MAX_EFFECTS; i++) {
+        d->cause[0].is_kept_back[i] = !d->confident && !(d->closable > 0);
     }
-    const interval_t part = resample_ratio(left, w->plain_error, HYPOTHESIS_BLOCKS, 1);
-    cause->rmse_after = sqrt(sum_of(left, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
-    cause->shrink = 1 - cause->rmse_after / w->plain_rmse;
-    cause->shrink_low = fmin(1 - sqrt(part.high), cause->shrink);
-    cause->shrink_high = fmax(1 - sqrt(part.low), cause->shrink);
+    for (size_t k = 0; k < d->num_causes; k++) {
+        shrink_find(&w->gap, w->plain_error, held_out, k == 0 ? average : NULL, &d->cause[k]);
+    }
+    free(average);
 }
 
 /// Where the model fails on work that it was not identified for, no effect can be named with confidence.
@@ -162,9 +137,8 @@ static void advise(const work_t* w, diagnosis_t* d)
 static double* whole_gap(const work_t* w)
 {
     const size_t n = w->whole.num_samples;
-    const hypothesis_t none = {0};
     double* difference = xmalloc(n * sizeof *difference);
-    simulate_model(w, &w->whole, &none, difference);
+    shrink_simulate(&w->gap, &w->whole, NULL, 0, difference);
     for (size_t t = 0; t < n; t++) {
         difference[t] = t >= w->scope.first_judged ? w->record->output[t] - difference[t] : 0;
     }
@@ -178,11 +152,10 @@ static double correction_of(const work_t* w)
         return 0;
     }
     const size_t n = w->run.num_samples;
-    const hypothesis_t none = {0};
     double* body = xmalloc(n * sizeof *body);
     double* model = xmalloc(n * sizeof *model);
     effect_simulate(&w->run, w->gap.model, w->gap.start, NULL, 0, body);
-    simulate_model(w, &w->run, &none, model);
+    shrink_simulate(&w->gap, &w->run, NULL, 0, model);
     double sum = 0;
     for (size_t t = 0; t < n; t++) {
         sum += (body[t] - model[t]) * (body[t] - model[t]) / (double)n;
@@ -259,8 +232,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
                      &w->body.nuisance,
                      fmax(w->body.misfit * w->body.misfit, DBL_MIN) *
                          fmax((double)w->run.num_samples / independent_pieces, 1));
-    const hypothesis_t none = {0};
-    block_errors(w, &none, w->plain_error);
+    shrink_block_errors(&w->gap, NULL, 0, w->plain_error);
     w->plain_rmse = sqrt(sum_of(w->plain_error, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
 }
 
@@ -343,9 +315,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     describe_gap(&w, d);
     verdict_find(&w.scale, &w.candidates, d);
     judge_causes(&w, d);
-    for (size_t k = 0; k < d->num_causes; k++) {
-        set_shrink(&w, &d->cause[k]);
-    }
+    forecast_causes(&w, d);
     mind_scope(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
@@ -354,9 +324,10 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);
     d->after = xmalloc(record->num_samples * sizeof *d->after);
-    const hypothesis_t none = {0};
-    simulate_model(&w, &w.whole, &none, d->before);
-    simulate_model(&w, &w.whole, d->cause[0].hypothesis, d->after);
+    effect_use_t handed_out[HYPOTHESIS_MAX_EFFECTS];
+    const size_t num_handed_out = cause_handed_out(&d->cause[0], handed_out);
+    shrink_simulate(&w.gap, &w.whole, NULL, 0, d->before);
+    shrink_simulate(&w.gap, &w.whole, handed_out, num_handed_out, d->after);
     d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
     message_progress_done();
     d->hypothesis = w.candidates.hypothesis;

@@ -1,16 +1,23 @@
 #include "diagnose_json.h"
 
+#include "diagnose_shrink.h"
+
 /// A cause's effects by name; an exogenous one with its column.
-static json_t* names_of(const hypothesis_t* hypothesis)
+static json_t* names_of_uses(const effect_use_t* uses, size_t num_uses)
 {
     json_t* names = json_array();
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        const effect_use_t* use = &hypothesis->use[i];
+    for (size_t i = 0; i < num_uses; i++) {
+        const effect_use_t* use = &uses[i];
         json_array_append_new(names, use->column[0] != '\0'
                                          ? json_sprintf("%s:%s", use->effect->name, use->column)
                                          : json_string(use->effect->name));
     }
     return names;
+}
+
+static json_t* names_of(const hypothesis_t* hypothesis)
+{
+    return names_of_uses(hypothesis->use, hypothesis->num_uses);
 }
 
 static bool is_transferable(const hypothesis_t* hypothesis)
@@ -42,11 +49,11 @@ static json_t* region_json(const region_t* region)
     return object;
 }
 
-json_t* parameters_to_json(const hypothesis_t* hypothesis)
+json_t* parameters_to_json(const effect_use_t* uses, size_t num_uses)
 {
     json_t* list = json_array();
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        json_array_append_new(list, effect_use_to_json(&hypothesis->use[i]));
+    for (size_t i = 0; i < num_uses; i++) {
+        json_array_append_new(list, effect_use_to_json(&uses[i]));
     }
     return list;
 }
@@ -58,7 +65,8 @@ static json_t* cause_json(const cause_t* cause)
                   cause->probability, "rmse_after", cause->rmse_after, "shrink", cause->shrink, "shrink_low",
                   cause->shrink_low, "shrink_high", cause->shrink_high);
     json_object_set_new(object, "rmse_judged", json_real(cause->hypothesis->fit_rmse));
-    json_object_set_new(object, "parameters", parameters_to_json(cause->hypothesis));
+    json_object_set_new(object, "parameters",
+                        parameters_to_json(cause->hypothesis->use, cause->hypothesis->num_uses));
     if (!is_transferable(cause->hypothesis)) {
         json_object_set_new(object, "transferable", json_false());
     }
@@ -76,8 +84,11 @@ static json_t* verdict_json(const diagnosis_t* d)
     for (size_t k = 0; k < d->num_indistinguishable; k++) {
         json_array_append_new(sets, names_of(d->cause[d->indistinguishable[k]].hypothesis));
     }
-    return json_pack("{s:o, s:b, s:o, s:s}", "effects", verdict_effects(d), "confident", d->confident,
-                     "indistinguishable", sets, "advice", d->advice);
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
+    return json_pack("{s:o, s:b, s:o, s:s, s:o}", "effects", verdict_effects(d), "confident", d->confident,
+                     "indistinguishable", sets, "advice", d->advice, "augmented_with",
+                     names_of_uses(uses, num_uses));
 }
 
 static json_t* gap_json(const diagnosis_t* d)

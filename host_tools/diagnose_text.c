@@ -1,5 +1,6 @@
 #include "diagnose_text.h"
 
+#include "diagnose_shrink.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -23,6 +24,23 @@ void text_verdict(const diagnosis_t* diagnosis, char* text, size_t size)
     }
 }
 
+/// How far modelling a cause takes another record.
+static void describe_outlook(const cause_t* cause, char* text, size_t size)
+{
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    const size_t count = cause_handed_out(cause, uses);
+    if (count == 0) {
+        (void)snprintf(text, size, "Modelling it is not expected to help on another record.");
+        return;
+    }
+    (void)snprintf(
+        text, size,
+        "Modelling %s is predicted to shrink the error of another record by %.0f %% (90 %% interval "
+        "%.0f to %.0f %%).",
+        count < cause->hypothesis->num_uses ? "what of it helps there" : "it", 100 * cause->shrink,
+        100 * cause->shrink_low, 100 * cause->shrink_high);
+}
+
 void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* text, size_t size)
 {
     char gap[200];
@@ -38,11 +56,11 @@ void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* t
                        gap);
     } else {
         char names[400];
+        char outlook[200];
         text_names(cause->hypothesis, names, sizeof names);
-        (void)snprintf(text, size,
-                       "%s, and the likeliest cause is %s (probability %.0f %%%s). Modelling it is predicted "
-                       "to shrink the error by %.0f %% (90 %% interval %.0f to %.0f %%).",
-                       gap, names, 100 * cause->probability, diagnosis->confident ? "" : ", not confident",
-                       100 * cause->shrink, 100 * cause->shrink_low, 100 * cause->shrink_high);
+        describe_outlook(cause, outlook, sizeof outlook);
+        (void)snprintf(text, size, "%s, and the likeliest cause is %s (probability %.0f %%%s). %s", gap,
+                       names, 100 * cause->probability, diagnosis->confident ? "" : ", not confident",
+                       outlook);
     }
 }

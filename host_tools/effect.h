@@ -108,6 +108,7 @@ typedef struct {
     bool has_reference;
     double
         reference; ///< exogenous: the column's value at which nothing changes; without it the record's first
+    bool is_of_one_record; ///< "transferable": false in the model file: fitted to one record's own course
 } effect_use_t;
 
 /// The run's description over a record (time, or 1 s a sample without it).

@@ -154,6 +154,7 @@ static model_fault_t read_use(json_t* entry, size_t index, effect_use_t* use)
     if (found.key == NULL) {
         found = check_members(entry, index, use->effect);
     }
+    use->is_of_one_record = json_is_false(json_object_get(entry, "transferable"));
     for (size_t p = 0; found.key == NULL && p < use->effect->num_parameters; ++p) {
         found = read_parameter(entry, index, use->effect, p, &use->parameter[p]);
     }

@@ -1,0 +1,134 @@
+#include "diagnose_shrink.h"
+
+#include "forecast.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void shrink_simulate(const gap_t* gap, const effect_run_t* run, const effect_use_t* uses, size_t num_uses,
+                     double* output)
+{
+    effect_run_t alone = *run;
+    alone.body = NULL;
+    alone.correction = NULL;
+    effect_simulate(&alone, gap->model, gap->start, uses, num_uses, output);
+}
+
+/// Sum of squares of each block between two series, over the judged samples.
+static void block_distances(const gap_t* gap, const double* a, const double* b, double* square)
+{
+    size_t t = 0;
+    for (size_t k = 0; k < HYPOTHESIS_BLOCKS; k++) {
+        square[k] = 0;
+        for (; t < gap->block_end[k]; t++) {
+            const double e = gap_is_judged(gap, t) ? a[t] - b[t] : 0;
+            square[k] += e * e;
+        }
+    }
+}
+
+void shrink_block_errors(const gap_t* gap, const effect_use_t* uses, size_t num_uses, double* error)
+{
+    double* predicted = xmalloc(gap->run->num_samples * sizeof *predicted);
+    shrink_simulate(gap, gap->run, uses, num_uses, predicted);
+    block_distances(gap, predicted, gap->output, error);
+    free(predicted);
+}
+
+void shrink_average(const gap_t* gap, const cause_t* cause, size_t num_causes, double* average)
+{
+    const size_t n = gap->run->num_samples;
+    double* predicted = xmalloc(n * sizeof *predicted);
+    double total = 0;
+    for (size_t t = 0; t < n; t++) {
+        average[t] = 0;
+    }
+    for (size_t k = 0; k < num_causes; k++) {
+        const hypothesis_t* h = cause[k].hypothesis;
+        shrink_simulate(gap, gap->run, h->use, h->num_uses, predicted);
+        total += cause[k].probability;
+        for (size_t t = 0; t < n; t++) {
+            average[t] += cause[k].probability / total * (predicted[t] - average[t]);
+        }
+    }
+    free(predicted);
+}
+
+size_t cause_handed_out(const cause_t* cause, effect_use_t* uses)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
+        if (!cause->is_kept_back[i]) {
+            uses[count++] = cause->hypothesis->use[i];
+        }
+    }
+    return count;
+}
+
+static double sum_of(const double* values)
+{
+    double sum = 0;
+    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
+        sum += values[b];
+    }
+    return sum;
+}
+
+static void predict(const gap_t* gap, const cause_t* cause, double* predicted)
+{
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    const size_t count = cause_handed_out(cause, uses);
+    shrink_simulate(gap, gap->run, uses, count, predicted);
+}
+
+static bool is_nearer(const gap_t* gap, const double* a, const double* b, const double* target)
+{
+    double of_a[HYPOTHESIS_BLOCKS];
+    double of_b[HYPOTHESIS_BLOCKS];
+    block_distances(gap, a, target, of_a);
+    block_distances(gap, b, target, of_b);
+    return sum_of(of_a) < sum_of(of_b);
+}
+
+/// Keeps back the first effect that does harm: without it the record is met better, or what is expected of
+/// all causes together. Returns whether there was one.
+static bool keep_one_back(const gap_t* gap, const double* average, cause_t* cause)
+{
+    const size_t n = gap->run->num_samples;
+    double* with = xmalloc(n * sizeof *with);
+    double* without = xmalloc(n * sizeof *without);
+    bool kept = false;
+    predict(gap, cause, with);
+    for (size_t i = 0; !kept && i < cause->hypothesis->num_uses; i++) {
+        if (cause->is_kept_back[i]) {
+            continue;
+        }
+        cause->is_kept_back[i] = true;
+        predict(gap, cause, without);
+        kept = is_nearer(gap, without, with, gap->output) ||
+               (average != NULL && is_nearer(gap, without, with, average));
+        cause->is_kept_back[i] = kept;
+    }
+    free(with);
+    free(without);
+    return kept;
+}
+
+void shrink_find(const gap_t* gap, const double* plain, bool held_out, const double* average, cause_t* cause)
+{
+    double left[HYPOTHESIS_BLOCKS];
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    while (keep_one_back(gap, average, cause)) {
+    }
+    const size_t count = cause_handed_out(cause, uses);
+    if (held_out && count == cause->hypothesis->num_uses) {
+        memcpy(left, cause->hypothesis->block_error, sizeof left);
+    } else {
+        shrink_block_errors(gap, uses, count, left);
+    }
+    const forecast_t forecast = forecast_shrink(left, plain, HYPOTHESIS_BLOCKS);
+    cause->rmse_after = sqrt(sum_of(left) / (double)gap->num_judged);
+    cause->shrink = forecast.shrink;
+    cause->shrink_low = forecast.low;
+    cause->shrink_high = forecast.high;
+}

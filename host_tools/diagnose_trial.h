@@ -1,0 +1,17 @@
+/// The verdict on a record that the diagnosis has not seen.
+#ifndef HYST_HOST_DIAGNOSE_TRIAL_H
+#define HYST_HOST_DIAGNOSE_TRIAL_H
+
+#include "diagnose.h"
+
+typedef struct {
+    double before, after; ///< RMSE of the plain and of the augmented model on the test record
+    double predicted;     ///< shrink expected for the test record's input, its output not looked at
+} trial_t;
+
+/// diagnosis: of `record` and `model`, from `start`. OUTCOME_BAD_INPUT (reported) where the test record lacks
+/// a column that an effect follows.
+outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diagnosis, const record_t* record,
+                    const record_t* test, trial_t* trial);
+
+#endif

@@ -1,0 +1,113 @@
+#include "diagnose_trial.h"
+#include "effect_catalogue.h"
+#include "random.h"
+#include <math.h>
+#include <unity.h>
+
+enum { SAMPLES = 2400, PLAYS = 4 };
+
+/// A record of the plant: the model, an output lag of 0.05 s at 0.01 s a sample, and noise.
+typedef struct {
+    double time[SAMPLES], input[SAMPLES], output[SAMPLES];
+    record_t record;
+} work_t;
+
+static const double noise = 0.01;
+static model_t model;
+static work_t slow;
+static work_t fast;
+
+static void make_work(work_t* work, double speed, uint64_t seed)
+{
+    random_t random = random_new(seed);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        work->time[t] = 0.01 * (double)t;
+        work->input[t] = 5 - 3 * cos(0.031 * speed * (double)t) - 2 * cos(0.0173 * speed * (double)t);
+    }
+    work->record = (record_t){.path = "made.csv",
+                              .num_samples = SAMPLES,
+                              .time = work->time,
+                              .input = work->input,
+                              .output = work->output};
+    const effect_use_t lag = {.effect = &effect_output_lag, .parameter = {0.05}};
+    effect_run_t run = effect_run_new(&model, &work->record);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &lag, 1, work->output);
+    effect_run_free(&run);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        work->output[t] += noise * random_normal(&random);
+    }
+}
+
+void setUp(void)
+{
+    model = model_new("plant");
+    model.input_min = 0;
+    model.input_max = 10;
+    curve_free(&model.nonhysteretic);
+    model.nonhysteretic = curve_linear(0.5, 1);
+    model_set_num_plays(&model, PLAYS);
+    for (size_t j = 0; j < PLAYS; j++) {
+        model.radius[j] = 0.5 * (double)(j + 1);
+        model.weight[j] = 0.3;
+    }
+    make_work(&slow, 0.25, 21);
+    make_work(&fast, 1, 22);
+}
+
+void tearDown(void)
+{
+    model_free(&model);
+}
+
+static trial_t try_on_fast_work(const effect_use_t* use)
+{
+    const hypothesis_t hypothesis = hypothesis_of(use, 1);
+    cause_t cause = {.hypothesis = &hypothesis};
+    const diagnosis_t diagnosis = {.num_causes = 1, .cause = &cause};
+    trial_t trial;
+    TEST_ASSERT_EQUAL(OUTCOME_OK, trial_run(&model, START_NEGATIVE_SATURATION, &diagnosis, &slow.record,
+                                            &fast.record, &trial));
+    return trial;
+}
+
+/// The gap on slow work is a quarter of that on fast work, the noise after it is the same. Predicted and
+/// realised part by the two records' noise alone, each known to 1 / sqrt(2 SAMPLES) of itself: within three
+/// standard deviations of sqrt(2) of that, of 1 - shrink.
+static void test_shrink_is_predicted_for_other_work(void)
+{
+    const effect_use_t lag = {.effect = &effect_output_lag, .parameter = {0.05}};
+    const trial_t trial = try_on_fast_work(&lag);
+    const double left = trial.after / trial.before;
+    const double bound = 3 * sqrt(2) * left / sqrt(2.0 * SAMPLES);
+    TEST_ASSERT_DOUBLE_WITHIN(3 * noise / sqrt(2.0 * SAMPLES), noise, trial.after);
+    TEST_ASSERT_DOUBLE_WITHIN(bound, 1 - left, trial.predicted);
+}
+
+/// A course fitted to one record is none of another's.
+static void test_drift_is_not_tried_elsewhere(void)
+{
+    const effect_use_t drift = {.effect = &effect_drift_linear, .parameter = {0.1}};
+    const trial_t trial = try_on_fast_work(&drift);
+    TEST_ASSERT_EQUAL_DOUBLE(trial.before, trial.after);
+    TEST_ASSERT_EQUAL_DOUBLE(0, trial.predicted);
+}
+
+static void test_missing_column_is_refused(void)
+{
+    const effect_use_t column = {.effect = &effect_exogenous, .column = "temperature"};
+    const hypothesis_t hypothesis = hypothesis_of(&column, 1);
+    cause_t cause = {.hypothesis = &hypothesis};
+    const diagnosis_t diagnosis = {.num_causes = 1, .cause = &cause};
+    trial_t trial;
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, trial_run(&model, START_NEGATIVE_SATURATION, &diagnosis,
+                                                   &slow.record, &fast.record, &trial));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_shrink_is_predicted_for_other_work);
+    RUN_TEST(test_drift_is_not_tried_elsewhere);
+    RUN_TEST(test_missing_column_is_refused);
+    return UNITY_END();
+}
