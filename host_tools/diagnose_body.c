@@ -181,7 +181,7 @@ static nuisance_t element_nuisance(const body_t* body, const element_record_t* c
 static void try_elements(body_t* body, const model_t* model, const record_t* calibration,
                          const record_t* record)
 {
-    thinned_t thinned = record_thin(calibration, most_calibrated);
+    thinned_t thinned = record_thin(calibration, most_calibrated, 0);
     const element_record_t fitted = {.input = thinned.record.input,
                                      .output = thinned.record.output,
                                      .carried = thinned.carried,

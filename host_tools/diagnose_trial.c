@@ -48,24 +48,11 @@ static double predict(const squares_t* here, double added)
     return before > 0 ? 1 - after / sqrt(before) : 0;
 }
 
-/// What of the verdict holds on another record.
-static size_t uses_elsewhere(const diagnosis_t* d, effect_use_t* uses)
-{
-    const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
-    size_t count = 0;
-    for (size_t i = 0; i < num_uses; i++) {
-        if (uses[i].effect->transferable) {
-            uses[count++] = uses[i];
-        }
-    }
-    return count;
-}
-
 outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diagnosis, const record_t* record,
                     const record_t* test, trial_t* trial)
 {
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    const size_t num_uses = uses_elsewhere(diagnosis, uses);
+    const size_t num_uses = diagnosis->is_unknown ? 0 : cause_handed_out(&diagnosis->cause[0], uses);
     const outcome_t outcome = effect_check_columns(test, uses, num_uses);
     if (outcome != OUTCOME_OK) {
         return outcome;

@@ -36,7 +36,7 @@ typedef struct {
     const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
     const stand_in_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they
                             ///< do on the model's; or NULL
-    double input_frequency;   ///< for searches: of the line that carries most of the input [Hz]; 0: none does
+    double input_frequency; ///< for searches: of the line that carries most of the input [Hz]; 0: none does
     const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
 } effect_run_t;
 
@@ -88,10 +88,11 @@ struct effect {
                       hysteresis_t* hysteresis);
     /// The inverse of apply, in place: the series that apply turns into this one. NULL: it has none.
     void (*invert)(const effect_run_t* run, const double* parameter, const double* column, double* series);
-    double covers; ///< by how much it counts for more than one effect when hypotheses are weighed, because
-                   ///< its parameters can be another's as well
-    bool superseded; ///< another mechanism of its name explains what it does: for model files, not for searches
-    bool clips;    ///< invert leaves what it cannot reach where apply does not give it back
+    double covers;   ///< by how much it counts for more than one effect when hypotheses are weighed, because
+                     ///< its parameters can be another's as well
+    bool superseded; ///< another mechanism of its name explains what it does: for model files, not for
+                     ///< searches
+    bool clips;      ///< invert leaves what it cannot reach where apply does not give it back
     const char* no_inverse; ///< why the effect has no inverse, as the end of a sentence; NULL: it has one
 };
 

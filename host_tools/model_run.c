@@ -11,7 +11,7 @@ typedef struct {
     char* initial;
     char* columns;
     double sample_rate;
-    int own_record;
+    int other_record;
     int json;
 } options_t;
 
@@ -41,17 +41,22 @@ static outcome_t check_streams(const options_t* options, const char* const* argu
     return OUTCOME_OK;
 }
 
-/// Takes out the effects whose course was fitted to one record alone, saying so; returns how many are left.
-static size_t keep_transferable(const char* model_path, effect_use_t* uses, size_t num_uses)
+/// Says which effects were fitted to one record's own course, and over another record takes them out; returns
+/// how many are left.
+static size_t mind_transfer(const options_t* options, const char* model_path, effect_use_t* uses,
+                            size_t num_uses)
 {
     size_t count = 0;
     for (size_t i = 0; i < num_uses; ++i) {
+        const bool left_out = uses[i].is_of_one_record && options->other_record != 0;
         if (uses[i].is_of_one_record) {
             message_note((location_t){.file = model_path},
-                         "the effect \"%s\" was fitted to one record's own course and is left out; over that "
-                         "record run it with --own-record",
+                         left_out ? "the effect \"%s\" was fitted to one record's own course and is left out"
+                                  : "the effect \"%s\" was fitted to one record's own course; over a record "
+                                    "with another leave it out by --other-record",
                          uses[i].effect->name);
-        } else {
+        }
+        if (!left_out) {
             uses[count++] = uses[i];
         }
     }
@@ -72,9 +77,7 @@ static outcome_t run_on(const options_t* options, const char* model_path, const 
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    if (options->own_record == 0) {
-        run.num_uses = keep_transferable(run.model_path, uses, run.num_uses);
-    }
+    run.num_uses = mind_transfer(options, run.model_path, uses, run.num_uses);
     run.uses = uses;
     if (run.num_uses > 0 && record->time == NULL) {
         message_warning(
@@ -123,8 +126,8 @@ outcome_t model_run(const command_t* command, record_options_t needs, model_run_
         {"output", 'o', POPT_ARG_STRING, &options.output, 0, "the record to write (default: stdout)", "FILE"},
         {"initial", 0, POPT_ARG_STRING, &options.initial, 0,
          "the past: negative-saturation, positive-saturation, demagnetised or model", "NAME"},
-        {"own-record", 0, POPT_ARG_NONE, &options.own_record, 0,
-         "run also the effects that a diagnosis fitted to this very record alone", NULL},
+        {"other-record", 0, POPT_ARG_NONE, &options.other_record, 0,
+         "leave out the effects that a diagnosis fitted to one record's own course", NULL},
         RECORD_OPTIONS(&options.columns, &options.sample_rate),
         {"json", 0, POPT_ARG_NONE, &options.json, 0, "print the result as JSON (needs -o FILE)", NULL},
         POPT_TABLEEND};

@@ -83,13 +83,12 @@ static void test_shrink_is_predicted_for_other_work(void)
     TEST_ASSERT_DOUBLE_WITHIN(bound, 1 - left, trial.predicted);
 }
 
-/// A course fitted to one record is none of another's.
-static void test_drift_is_not_tried_elsewhere(void)
+/// A course that this plant does not have is run with the rest, as `simulate` runs the written model.
+static void test_drift_is_tried_as_written(void)
 {
     const effect_use_t drift = {.effect = &effect_drift_linear, .parameter = {0.1}};
     const trial_t trial = try_on_fast_work(&drift);
-    TEST_ASSERT_EQUAL_DOUBLE(trial.before, trial.after);
-    TEST_ASSERT_EQUAL_DOUBLE(0, trial.predicted);
+    TEST_ASSERT_TRUE(trial.after > trial.before);
 }
 
 static void test_missing_column_is_refused(void)
@@ -107,7 +106,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_shrink_is_predicted_for_other_work);
-    RUN_TEST(test_drift_is_not_tried_elsewhere);
+    RUN_TEST(test_drift_is_tried_as_written);
     RUN_TEST(test_missing_column_is_refused);
     return UNITY_END();
 }
