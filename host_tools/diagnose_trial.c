@@ -54,7 +54,7 @@ static size_t uses_elsewhere(const diagnosis_t* d, effect_use_t* uses)
     const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
     size_t count = 0;
     for (size_t i = 0; i < num_uses; i++) {
-        if (uses[i].effect->transferable) {
+        if (!uses[i].is_of_one_record) {
             uses[count++] = uses[i];
         }
     }
