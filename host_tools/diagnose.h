@@ -25,8 +25,9 @@ typedef struct {
     double probability;
     double
         rmse_after; ///< on held-out stretches; where another body was judged, of the fit put into the model
-    double shrink, shrink_low, shrink_high;    ///< with the effects that are handed out
-    bool is_kept_back[HYPOTHESIS_MAX_EFFECTS]; ///< an effect of it that would not help another record
+    double shrink, shrink_low, shrink_high;        ///< with the effects that are handed out
+    bool is_kept_back[HYPOTHESIS_MAX_EFFECTS];     ///< an effect of it that would not help another record
+    bool is_of_one_record[HYPOTHESIS_MAX_EFFECTS]; ///< an effect of it that holds for this record alone
 } cause_t;
 
 typedef struct {

@@ -59,7 +59,9 @@ size_t cause_handed_out(const cause_t* cause, effect_use_t* uses)
     size_t count = 0;
     for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
         if (!cause->is_kept_back[i]) {
-            uses[count++] = cause->hypothesis->use[i];
+            uses[count] = cause->hypothesis->use[i];
+            uses[count].is_of_one_record = cause->is_of_one_record[i] || !uses[count].effect->transferable;
+            count++;
         }
     }
     return count;
@@ -74,10 +76,15 @@ static double sum_of(const double* values)
     return sum;
 }
 
-static void predict(const gap_t* gap, const cause_t* cause, double* predicted)
+static void predict_without(const gap_t* gap, const hypothesis_t* h, const bool* is_out, double* predicted)
 {
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    const size_t count = cause_handed_out(cause, uses);
+    size_t count = 0;
+    for (size_t i = 0; i < h->num_uses; i++) {
+        if (!is_out[i]) {
+            uses[count++] = h->use[i];
+        }
+    }
     shrink_simulate(gap, gap->run, uses, count, predicted);
 }
 
@@ -90,36 +97,53 @@ static bool is_nearer(const gap_t* gap, const double* a, const double* b, const 
     return sum_of(of_a) < sum_of(of_b);
 }
 
-/// Keeps back the first effect that does harm: without it the record is met better, or what is expected of
-/// all causes together. Returns whether there was one.
-static bool keep_one_back(const gap_t* gap, const double* average, cause_t* cause)
+/// Takes out the first effect that does harm beside the others: without it the record is met better, or what
+/// is expected of all causes together. Returns whether there was one.
+static bool take_one_out(const gap_t* gap, const double* average, const hypothesis_t* h, bool* is_out)
 {
     const size_t n = gap->run->num_samples;
     double* with = xmalloc(n * sizeof *with);
     double* without = xmalloc(n * sizeof *without);
-    bool kept = false;
-    predict(gap, cause, with);
-    for (size_t i = 0; !kept && i < cause->hypothesis->num_uses; i++) {
-        if (cause->is_kept_back[i]) {
+    bool taken = false;
+    predict_without(gap, h, is_out, with);
+    for (size_t i = 0; !taken && i < h->num_uses; i++) {
+        if (is_out[i]) {
             continue;
         }
-        cause->is_kept_back[i] = true;
-        predict(gap, cause, without);
-        kept = is_nearer(gap, without, with, gap->output) ||
-               (average != NULL && is_nearer(gap, without, with, average));
-        cause->is_kept_back[i] = kept;
+        is_out[i] = true;
+        predict_without(gap, h, is_out, without);
+        taken = is_nearer(gap, without, with, gap->output) ||
+                (average != NULL && is_nearer(gap, without, with, average));
+        is_out[i] = taken;
     }
     free(with);
     free(without);
-    return kept;
+    return taken;
+}
+
+/// What was fitted beside a course of this record alone may only make up for it: it holds elsewhere if it
+/// helps without that.
+static void bind_to_record(const gap_t* gap, cause_t* cause)
+{
+    const hypothesis_t* h = cause->hypothesis;
+    bool is_out[HYPOTHESIS_MAX_EFFECTS] = {false};
+    for (size_t i = 0; i < h->num_uses; i++) {
+        is_out[i] = cause->is_kept_back[i] || !h->use[i].effect->transferable;
+    }
+    while (take_one_out(gap, NULL, h, is_out)) {
+    }
+    for (size_t i = 0; i < h->num_uses; i++) {
+        cause->is_of_one_record[i] = is_out[i] && !cause->is_kept_back[i];
+    }
 }
 
 void shrink_find(const gap_t* gap, const double* plain, bool held_out, const double* average, cause_t* cause)
 {
     double left[HYPOTHESIS_BLOCKS];
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    while (keep_one_back(gap, average, cause)) {
+    while (take_one_out(gap, average, cause->hypothesis, cause->is_kept_back)) {
     }
+    bind_to_record(gap, cause);
     const size_t count = cause_handed_out(cause, uses);
     if (held_out && count == cause->hypothesis->num_uses) {
         memcpy(left, cause->hypothesis->block_error, sizeof left);

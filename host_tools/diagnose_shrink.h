@@ -17,10 +17,11 @@ size_t cause_handed_out(const cause_t* cause, effect_use_t* uses);
 /// in the mean square to whichever is true. average[gap's samples].
 void shrink_average(const gap_t* gap, const cause_t* causes, size_t num_causes, double* average);
 
-/// Sets what a cause hands out, its shrink and interval, and rmse_after. Kept back are effects without which
-/// the record is met better (an output rounded like the plant's is nearer to it only where the model is off
-/// by less than half a step) or `average` is (NULL: not asked). plain: block errors without effects.
-/// held_out: the hypothesis's block_error is there, and is taken where every effect is handed out.
+/// Sets what a cause hands out and what of that is bound to this record, its shrink and interval, and
+/// rmse_after. Kept back are effects without which the record is met better (an output rounded like the
+/// plant's is nearer to it only where the model is off by less than half a step) or `average` is (NULL: not
+/// asked). plain: block errors without effects. held_out: the hypothesis's block_error is there, and is taken
+/// where every effect is handed out.
 void shrink_find(const gap_t* gap, const double* plain, bool held_out, const double* average, cause_t* cause);
 
 #endif

@@ -230,7 +230,7 @@ json_t* effect_use_to_json(const effect_use_t* use)
     for (size_t p = 0; p < use->effect->num_parameters; ++p) {
         json_object_set_new(entry, use->effect->parameter[p].name, json_real(use->parameter[p]));
     }
-    if (!use->effect->transferable) {
+    if (use->is_of_one_record || !use->effect->transferable) {
         json_object_set_new(entry, "transferable", json_false());
     }
     return entry;

@@ -138,6 +138,35 @@ static void test_an_improbable_effect_is_kept_back(void)
     TEST_ASSERT_EQUAL_DOUBLE(0, unlikely.shrink);
 }
 
+/// A gain beside a drift holds elsewhere. An offset of 1 beside a drift of -0.1 t over 24 s does not: without
+/// the drift it leaves 0.01 * 24^2 / 3 = 1.92, where the model alone leaves the mean square of 1 - 0.1 t,
+/// 0.52.
+static void test_what_makes_up_for_a_drift_is_bound_to_the_record(void)
+{
+    const effect_use_t uses[] = {{.effect = &effect_gain_offset, .parameter = {1.5, 0}},
+                                 {.effect = &effect_drift_linear, .parameter = {-0.05}}};
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] += 0.5 * output[t] - 0.05 * time_of[t];
+    }
+    judge_output();
+    hypothesis_t h = hypothesis_of(uses, 2);
+    const cause_t own = verdict_of(&h, 1);
+    TEST_ASSERT_FALSE(own.is_of_one_record[0]);
+    TEST_ASSERT_TRUE(own.is_of_one_record[1]);
+    gap_free(&gap);
+    effect_use_t together[] = {{.effect = &effect_gain_offset, .parameter = {1, 1}},
+                               {.effect = &effect_drift_linear, .parameter = {-0.1}}};
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, NULL, 0, output);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] += 1 - 0.1 * time_of[t];
+    }
+    judge_output();
+    h = hypothesis_of(together, 2);
+    const cause_t made_up = verdict_of(&h, 1);
+    TEST_ASSERT_TRUE(made_up.is_of_one_record[0]);
+    TEST_ASSERT_TRUE(made_up.is_of_one_record[1]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -145,5 +174,6 @@ int main(void)
     RUN_TEST(test_a_converter_beyond_the_noise_is_kept_back);
     RUN_TEST(test_the_other_effect_stays);
     RUN_TEST(test_an_improbable_effect_is_kept_back);
+    RUN_TEST(test_what_makes_up_for_a_drift_is_bound_to_the_record);
     return UNITY_END();
 }
