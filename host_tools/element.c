@@ -63,13 +63,12 @@ static void atherton_move(element_state_t* s, double move)
 {
     const element_t* e = s->element;
     const bool rising = move > 0;
-    const double slope = wall_slope(e, ideal_at(e, s->part, s->state), s->inner, rising);
-    const double wall = s->inner + moment(e, 1) * move * slope;
+    const double wall = s->inner + moment(e, 1) * move * wall_slope(e, s->ideal, s->inner, rising);
     const double part = s->part + moment(e, 0) * move;
     const double then = magnetisation(e, ideal_at(e, part, s->state), wall);
     s->inner += move * wall_slope(e, ideal_at(e, part, then), wall, rising);
-    const double guess = magnetisation(e, ideal_at(e, s->part + move, then), s->inner);
-    s->state = magnetisation(e, ideal_at(e, s->part + move, guess), s->inner);
+    s->ideal = ideal_at(e, s->part + move, s->state + (then - s->state) / moment(e, 0));
+    s->state = magnetisation(e, s->ideal, s->inner);
 }
 
 static double move_to(element_state_t* s, double part)
@@ -91,7 +90,8 @@ static double move_to(element_state_t* s, double part)
 
 element_state_t element_saturated(const element_t* element)
 {
-    element_state_t s = {.element = element};
+    element_state_t s = {.element = element,
+                         .ideal = element->kind == ELEMENT_JILES_ATHERTON ? ideal_at(element, 0, 0) : 0};
     (void)move_to(&s, 1);
     (void)move_to(&s, 0);
     return s;
@@ -137,8 +137,8 @@ static void place(element_state_t* s, double output)
     s->state = (output - curve_at(e, s->part)) / e->gain;
     s->inner = s->state;
     if (e->kind == ELEMENT_JILES_ATHERTON) {
-        const double ideal = ideal_at(e, s->part, s->state);
-        s->inner = (s->state - e->shape[ATHERTON_BOWING] * ideal) / (1 - e->shape[ATHERTON_BOWING]);
+        s->ideal = ideal_at(e, s->part, s->state);
+        s->inner = (s->state - e->shape[ATHERTON_BOWING] * s->ideal) / (1 - e->shape[ATHERTON_BOWING]);
     }
 }
 

@@ -48,6 +48,7 @@ typedef struct {
     double part;  ///< the input as a part of the range, within it
     double inner; ///< z, or W
     double state; ///< z, or M
+    double ideal; ///< A there; Bouc-Wen has none
 } element_state_t;
 
 /// In negative saturation: at the range's foot after a whole cycle.
