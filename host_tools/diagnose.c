@@ -100,6 +100,7 @@ static void forecast_causes(const work_t* w, diagnosis_t* d)
 {
     const bool held_out = !has_another_body(w) && !(w->grid.step > 0);
     double* average = xmalloc(w->run.num_samples * sizeof *average);
+    shrink_settle(&w->gap, own(w, &d->cause[0]));
     shrink_average(&w->gap, d->cause, d->num_causes, average);
     for (size_t i = 0; i < HYPOTHESIS_MAX_EFFECTS; i++) {
         d->cause[0].is_kept_back[i] = !d->confident && !(d->closable > 0);
@@ -198,6 +199,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     hypothesis_t* hypothesis = own(w, verdict);
     hypothesis_t searched = without_grid(w, hypothesis);
     hypothesis_fit(&searched, &gap, -1, LAST_EVALUATIONS);
+    shrink_settle(&gap, &searched);
     memcpy(hypothesis->use, searched.use, searched.num_uses * sizeof *searched.use);
     gap_free(&gap);
     effect_run_free(&run);

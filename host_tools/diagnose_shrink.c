@@ -76,6 +76,33 @@ static double sum_of(const double* values)
     return sum;
 }
 
+/// Likelihood ratio, chi-squared of one number, below which a record says nothing of it: 5 % level.
+static const double no_evidence = 3.84;
+
+static double left_by(const gap_t* gap, const hypothesis_t* h)
+{
+    double error[HYPOTHESIS_BLOCKS];
+    shrink_block_errors(gap, h->use, h->num_uses, error);
+    return sum_of(error);
+}
+
+void shrink_settle(const gap_t* gap, hypothesis_t* hypothesis)
+{
+    const double left = left_by(gap, hypothesis);
+    const double tells = left * no_evidence / (double)gap->num_judged;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_t* use = &hypothesis->use[i];
+        for (size_t p = 0; p < use->effect->num_parameters; p++) {
+            const double fitted = use->parameter[p];
+            use->parameter[p] = effect_use_limits(gap->run, use, p).neutral;
+            const bool is_wrong = use->effect->fault != NULL && use->effect->fault(use->parameter) != NULL;
+            if (is_wrong || fabs(left_by(gap, hypothesis) - left) > tells) {
+                use->parameter[p] = fitted;
+            }
+        }
+    }
+}
+
 static void predict_without(const gap_t* gap, const hypothesis_t* h, const bool* is_out, double* predicted)
 {
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];

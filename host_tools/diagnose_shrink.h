@@ -13,6 +13,10 @@ void shrink_block_errors(const gap_t* gap, const effect_use_t* uses, size_t num_
 /// The effects that the augmented model gets of a cause: uses[HYPOTHESIS_MAX_EFFECTS]; returns how many.
 size_t cause_handed_out(const cause_t* cause, effect_use_t* uses);
 
+/// Parameters that the record says nothing about (a clip that one sample touches) become neutral: what a fit
+/// left them at may act on another record.
+void shrink_settle(const gap_t* gap, hypothesis_t* hypothesis);
+
 /// What is expected of all causes together: the causes' predictions averaged by probability, which is nearest
 /// in the mean square to whichever is true. average[gap's samples].
 void shrink_average(const gap_t* gap, const cause_t* causes, size_t num_causes, double* average);

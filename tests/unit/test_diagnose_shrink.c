@@ -167,6 +167,29 @@ static void test_what_makes_up_for_a_drift_is_bound_to_the_record(void)
     TEST_ASSERT_TRUE(made_up.is_of_one_record[1]);
 }
 
+/// The low clip acts on much of the record, the high one on no sample of it, the lag on all.
+static void test_what_the_record_does_not_show_becomes_neutral(void)
+{
+    const effect_use_t clip = {.effect = &effect_output_saturation, .parameter = {6, 0}};
+    effect_use_t uses[] = {clip, {.effect = &effect_output_lag, .parameter = {0.05}}};
+    double highest = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        highest = fmax(highest, output[t]);
+    }
+    uses[0].parameter[1] = highest + 0.01;
+    random_t random = random_new(5);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, uses, 2, output);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] += 0.01 * random_normal(&random);
+    }
+    judge_output();
+    hypothesis_t h = hypothesis_of(uses, 2);
+    shrink_settle(&gap, &h);
+    TEST_ASSERT_EQUAL_DOUBLE(6, h.use[0].parameter[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(effect_use_limits(&run, &uses[0], 1).neutral, h.use[0].parameter[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.05, h.use[1].parameter[0]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -175,5 +198,6 @@ int main(void)
     RUN_TEST(test_the_other_effect_stays);
     RUN_TEST(test_an_improbable_effect_is_kept_back);
     RUN_TEST(test_what_makes_up_for_a_drift_is_bound_to_the_record);
+    RUN_TEST(test_what_the_record_does_not_show_becomes_neutral);
     return UNITY_END();
 }
