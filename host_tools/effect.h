@@ -84,10 +84,11 @@ struct effect {
                       hysteresis_t* hysteresis);
     /// The inverse of apply, in place: the series that apply turns into this one. NULL: it has none.
     void (*invert)(const effect_run_t* run, const double* parameter, const double* column, double* series);
-    double covers; ///< by how much it counts for more than one effect when hypotheses are weighed, because
-                   ///< its parameters can be another's as well
-    bool superseded; ///< another mechanism of its name explains what it does: for model files, not for searches
-    bool clips;    ///< invert leaves what it cannot reach where apply does not give it back
+    double covers;   ///< by how much it counts for more than one effect when hypotheses are weighed, because
+                     ///< its parameters can be another's as well
+    bool superseded; ///< another mechanism of its name explains what it does: for model files, not for
+                     ///< searches
+    bool clips;      ///< invert leaves what it cannot reach where apply does not give it back
     const char* no_inverse; ///< why the effect has no inverse, as the end of a sentence; NULL: it has one
 };
 
