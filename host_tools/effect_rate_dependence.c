@@ -29,14 +29,16 @@ static const effect_parameter_t widening_parameter[] = {{"coefficient", "envelop
 static const effect_parameter_t diffusion_parameters[] = {{"tau", "s", AT_LEAST_0}, SHARE};
 static const effect_parameter_t excess_parameters[] = {{"excess", "input/sqrt(input/s)", AT_LEAST_0}, SHARE};
 
-static effect_limits_t share_limits(void)
+static effect_limits_t share_limits(double most)
 {
-    return limits_linear(0.0, 1.0, 0.0, 0.1, 0.8, 0.1);
+    return limits_linear(0.0, most, 0.0, 0.1, 0.8, 0.1);
 }
 
+/// Nearer to 1 the slowest mode, four fifths of a diffusion, is a first-order lag of the whole input, and the
+/// other modes fit what any real lag differs by from that.
 static void diffusion_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
-    *result = parameter == 0 ? limits_time_constant(run) : share_limits();
+    *result = parameter == 0 ? limits_time_constant(run) : share_limits(0.85);
 }
 
 static void excess_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -44,7 +46,7 @@ static void excess_limits(const effect_run_t* run, size_t parameter, effect_limi
     const double rate = run->travel > 0.0 ? run->travel / run->duration : 1.0;
     const double high = 0.5 * run->input_span / sqrt(rate);
     *result = parameter == 0 ? limits_linear(0.0, high, 0.0, 0.03 * high, 0.15 * high, 0.005 * high)
-                             : share_limits();
+                             : share_limits(1.0);
 }
 
 /// Two fields behind each other: the nonhysteretic part is free of the share that either binds.
