@@ -42,9 +42,14 @@ static void add(const effect_run_t* run, const double* parameter, double sign, d
         // Whole periods off first, in the period's own unit: a late record keeps its phase.
         const double periods = parameter[FREQUENCY] * run->time[i];
         const double angle = two_pi * (periods - floor(periods));
+        const double first[] = {sin(angle), cos(angle)};
+        double line[] = {0.0, 1.0};
         for (int h = 0; h < HARMONICS; ++h) {
             const double* amplitude = &parameter[AMPLITUDE_SIN + 2 * h];
-            series[i] += sign * (amplitude[0] * sin((h + 1) * angle) + amplitude[1] * cos((h + 1) * angle));
+            const double turned = line[0] * first[1] + line[1] * first[0];
+            line[1] = line[1] * first[1] - line[0] * first[0];
+            line[0] = turned;
+            series[i] += sign * (amplitude[0] * line[0] + amplitude[1] * line[1]);
         }
     }
 }

@@ -63,6 +63,18 @@ static double weighted_sum(const model_t* model, const double* memory)
     return sum;
 }
 
+/// Of finite numbers: fmax and fmin, which mind NaN, are calls, and these stand where most of a search's time
+/// goes.
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /// Both envelopes at one end of a step, and what the radii grow by there.
 typedef struct {
     double ascending, descending, extra;
@@ -75,12 +87,12 @@ static strip_t strip_at(const model_t* model, double v, double extra)
 
 static double lower_end(const strip_t* strip, double radius)
 {
-    return strip->ascending - fmax(radius + strip->extra, 0.0);
+    return strip->ascending - larger(radius + strip->extra, 0.0);
 }
 
 static double upper_end(const strip_t* strip, double radius)
 {
-    return strip->descending + fmax(radius + strip->extra, 0.0);
+    return strip->descending + larger(radius + strip->extra, 0.0);
 }
 
 /// Where a state ends that a bound, moving evenly from `from` to `to` in `step` seconds, pulls up: w' =
@@ -134,7 +146,7 @@ static double moved(double w, double radius, const strip_t* to, int direction, b
     if (direction == 0 && own_radii) {
         return w;
     }
-    return direction < 0 ? fmin(high, fmax(low, w)) : fmax(low, fmin(high, w));
+    return direction < 0 ? smaller(high, larger(low, w)) : larger(low, smaller(high, w));
 }
 
 static void move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
