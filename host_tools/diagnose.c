@@ -111,11 +111,13 @@ static void forecast_causes(const work_t* w, diagnosis_t* d)
     free(average);
 }
 
-/// Where the model fails on work that it was not identified for, no effect can be named with confidence.
+/// Where the model fails on work that it was not identified for, no effect can be named with confidence. An
+/// element holds in all loops.
 static void mind_scope(const work_t* w, diagnosis_t* d)
 {
-    if (!d->is_none) {
-        d->confident = d->confident && scope_is_known(&w->scope);
+    const bool has_element = w->body.stands_in && w->body.stand_in.is_element;
+    if (!d->is_none && !has_element && !scope_is_known(&w->scope)) {
+        d->confident = false;
         scope_advise(&w->scope, w->gap.model, d->advice, sizeof d->advice);
     }
 }
@@ -223,10 +225,10 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     w->run.fast = fast;
     w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
-    // A body cannot be learned from loops whose past is unknown, nor for work that they have none of.
-    if (options->calibration != NULL && first_fitted(model) == 0 && scope_is_known(&w->scope)) {
+    // A body cannot be learned from loops whose past is unknown, nor for a range that they have none of.
+    if (options->calibration != NULL && first_fitted(model) == 0 && scope_is_within(&w->scope)) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
-                            options->calibration_noise, &w->thinned.record);
+                            options->calibration_noise, scope_is_known(&w->scope), &w->thinned.record);
         w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
         w->run.correction = w->body.correction;
     }

@@ -245,7 +245,7 @@ static void add_everett(body_t* body, const model_t* model, const record_t* cali
 }
 
 body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,
-                 double noise, const record_t* record)
+                 double noise, bool is_visited, const record_t* record)
 {
     body_t body = {.misfit = model_misfit, .noise = noise};
     if (!(noise > 0 && model_misfit > noise && calibration->num_samples > 2 * DUHEM_FREE)) {
@@ -254,10 +254,10 @@ body_t body_find(const model_t* model, start_t start, const record_t* calibratio
     if (start == START_NEGATIVE_SATURATION) {
         try_elements(&body, model, calibration, record);
     }
-    if (!body.stands_in || body.misfit > hardly_more * noise) {
+    if (is_visited && (!body.stands_in || body.misfit > hardly_more * noise)) {
         try_duhem(&body, model, start, calibration, record);
     }
-    if (!body.stands_in && start == START_NEGATIVE_SATURATION) {
+    if (is_visited && !body.stands_in && start == START_NEGATIVE_SATURATION) {
         add_everett(&body, model, calibration, record);
     }
     return body;

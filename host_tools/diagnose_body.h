@@ -20,9 +20,10 @@ typedef struct {
 
 /// An element or a Duhem body where that leaves clearly less of the calibration than the model, and no more
 /// of the record; else the model's plays and what a Preisach body would add. model_misfit: RMS of what the
-/// model leaves of the calibration; noise likewise.
+/// model leaves of the calibration; noise likewise. is_visited: whether the calibration has loops like the
+/// record's; without them no tables are learned from it, only elements.
 body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,
-                 double noise, const record_t* record);
+                 double noise, bool is_visited, const record_t* record);
 void body_free(body_t* body);
 
 #endif

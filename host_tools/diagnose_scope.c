@@ -104,9 +104,14 @@ scope_t scope_of(const model_t* model, const record_t* calibration, const record
                      .unvisited = calibration != NULL ? unvisited(model, calibration, record) : 0};
 }
 
+bool scope_is_within(const scope_t* scope)
+{
+    return !(scope->beyond > much_beyond);
+}
+
 bool scope_is_known(const scope_t* scope)
 {
-    return !(scope->beyond > much_beyond || scope->unvisited > much_unvisited);
+    return scope_is_within(scope) && !(scope->unvisited > much_unvisited);
 }
 
 void scope_advise(const scope_t* scope, const model_t* model, char* text, size_t size)

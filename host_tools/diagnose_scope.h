@@ -20,7 +20,9 @@ typedef struct {
 
 /// calibration: the record that the model was identified from, or NULL.
 scope_t scope_of(const model_t* model, const record_t* calibration, const record_t* record);
-/// Whether what the model says there was measured, by and large.
+/// Whether the record keeps to the model's range, by and large.
+bool scope_is_within(const scope_t* scope);
+/// Whether it also keeps to loops like the calibration's, so that what the model says there was measured.
 bool scope_is_known(const scope_t* scope);
 /// What to identify the model from instead, where it was not; else nothing.
 void scope_advise(const scope_t* scope, const model_t* model, char* text, size_t size);
