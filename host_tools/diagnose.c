@@ -313,14 +313,15 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     work_t w = {.options = options, .record = record};
     prepare(&w, model, fast);
     double* difference = whole_gap(&w);
-    const double here = white_noise(difference, record->num_samples);
+    const double here =
+        white_noise(difference + w.scope.first_judged, record->num_samples - w.scope.first_judged);
     const double noise = options->calibration_noise > 0 ? fmin(here, options->calibration_noise) : here;
     search(&w, noise);
     describe_gap(&w, d);
     verdict_find(&w.scale, &w.candidates, d);
     judge_causes(&w, d);
-    forecast_causes(&w, d);
     mind_scope(&w, d);
+    forecast_causes(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
     if (w.thinned.record.num_samples < record->num_samples) {

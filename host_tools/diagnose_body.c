@@ -5,6 +5,7 @@
 #include "everett.h"
 #include "record_thin.h"
 #include "reference.h"
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,22 +118,22 @@ static const double few = 3;
 
 static void scale(double* precision, size_t numbers, double factor)
 {
-    for (size_t i = 0; i < numbers * numbers; i++) {
-        precision[i] *= factor;
+    for (size_t column = 0; column < numbers; column++) {
+        cblas_dscal((int)column + 1, factor, precision + column * numbers, 1);
     }
 }
 
 /// Of the noise's, the least size of one error of the calibration, and how many of them count as one.
-static double errors_of(const body_t* body, const model_t* model, start_t start, const stand_in_t* stand_in,
-                        const record_t* calibration, double left)
+static double errors_of(const body_t* body, const model_t* model, start_t start, const record_t* calibration)
 {
     const size_t n = calibration->num_samples;
     double* residual = xmalloc(n * sizeof *residual);
-    stand_in_run(stand_in, model, start, 0, calibration->input, n, residual);
+    stand_in_run(&body->stand_in, model, start, 0, calibration->input, n, residual);
     for (size_t t = 0; t < n; t++) {
         residual[t] = calibration->output[t] - residual[t];
     }
-    const double errors = left * left / (body->noise * body->noise) * correlation_of(residual, n);
+    const double size = body->misfit / body->noise;
+    const double errors = size * size * correlation_of(residual, n);
     free(residual);
     return errors;
 }
@@ -151,7 +152,7 @@ static void try_duhem(body_t* body, const model_t* model, start_t start, const r
         body->stand_in = found;
         body->misfit = left;
         body->doubt = doubt_of_tables;
-        scale(precision, DUHEM_FREE, 1 / errors_of(body, model, start, &found, calibration, left));
+        scale(precision, DUHEM_FREE, 1 / errors_of(body, model, start, calibration));
         rows_t rows = {.body = body, .model = model, .start = start, .input = record->input};
         body->nuisance = nuisance_new(precision, DUHEM_FREE, record->num_samples, least_energy * left * left,
                                       duhem_rows, &rows);
@@ -203,8 +204,7 @@ static void try_elements(body_t* body, const model_t* model, const record_t* cal
     if (body->stands_in) {
         const double missed = fmax(body->misfit * body->misfit - body->noise * body->noise, 0);
         body->doubt = missed / (model_misfit * model_misfit - body->misfit * body->misfit) + doubt_of_element;
-        const double errors =
-            errors_of(body, model, START_NEGATIVE_SATURATION, &body->stand_in, &thinned.record, body->misfit);
+        const double errors = errors_of(body, model, START_NEGATIVE_SATURATION, &thinned.record);
         body->nuisance = element_nuisance(body, &fitted, errors, record);
     }
     thinned_free(&thinned);

@@ -17,7 +17,7 @@ static const double floor_over_least = 2;
 /// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are
 /// more hypotheses the more effects they have.
 static const double sharpness = 8;
-static const double prior = 0.3;
+static const double prior = 0.5;
 
 scale_t scale_new(double noise, double misfit, double doubt, double gap)
 {
@@ -88,6 +88,11 @@ static int by_probability(const void* a, const void* b)
     return (x < y) - (x > y);
 }
 
+/// From this probability on a verdict is confident.
+static const double confident_from = 0.9;
+/// In parts of the floor, what may stand above it before anything is unknown: floors are known no better.
+static const double known_to = 1.5;
+
 /// One cause for each set of names, the better mechanism's.
 static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
 {
@@ -131,7 +136,7 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     const double above = above_floor(scale, &c->hypothesis[0]);
     const double left = above > 0 ? above_floor(scale, leader) / above : 0;
     d->structure = structure_left(c->gap, leader);
-    d->is_unknown = above_floor(scale, leader) > 0.5 * scale->floor &&
+    d->is_unknown = above_floor(scale, leader) > known_to * scale->floor &&
                     (left > 0.4 || (left > 0.15 && d->structure > 0.3));
     d->is_none = leader->num_uses == 0 && !d->is_unknown;
     for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
@@ -140,5 +145,5 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
         }
     }
     d->confident = d->is_unknown ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
-                                 : d->cause[0].probability >= 0.8 && !(left > 0.1 && left < 0.3);
+                                 : d->cause[0].probability >= confident_from && !(left > 0.1 && left < 0.3);
 }

@@ -340,7 +340,10 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     const hysteresis_t stiffness = {.remanence_stiffness = hysteresis.remanence_stiffness,
                                     .middle = hysteresis.middle};
     hysteresis.remanence_stiffness = 0.0;
-    if (fabs(hysteresis.remanence_field) > 0.0 && run->fast != NULL && hysteresis_keeps_plays(&hysteresis)) {
+    hysteresis_t without_field = hysteresis;
+    without_field.remanence_field = 0.0;
+    if (fabs(hysteresis.remanence_field) > 0.0 && run->fast != NULL &&
+        hysteresis_keeps_plays(&without_field)) {
         run_mean_field(run, model, start, &hysteresis, drive, output);
     } else {
         run_hysteresis(run, model, start, &hysteresis, drive, output);

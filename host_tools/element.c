@@ -130,13 +130,17 @@ static double curve_at(const element_t* e, double part)
     return sum;
 }
 
-/// Where the state gives this output at the present input.
+/// Where the state gives this output at the present input, or as near as an element gets there.
 static void place(element_state_t* s, double output)
 {
     const element_t* e = s->element;
     s->state = (output - curve_at(e, s->part)) / e->gain;
-    s->inner = s->state;
-    if (e->kind == ELEMENT_JILES_ATHERTON) {
+    if (e->kind == ELEMENT_BOUC_WEN) {
+        const double fallen = -pow(e->shape[BOUC_WEN_FALLING], -1 / e->shape[BOUC_WEN_ORDER]);
+        s->state = fmin(fmax(s->state, fallen), 1);
+        s->inner = s->state;
+    } else {
+        s->state = fmin(fmax(s->state, -1), 1);
         s->ideal = ideal_at(e, s->part, s->state);
         s->inner = (s->state - e->shape[ATHERTON_BOWING] * s->ideal) / (1 - e->shape[ATHERTON_BOWING]);
     }

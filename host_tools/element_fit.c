@@ -166,19 +166,18 @@ static double search(fit_t* f, double* theta, int evaluations)
     const size_t m = f->num_rows;
     double* work = xmalloc((2 * m + m * N) * sizeof *work);
     double vectors[5][N];
-    double last[N];
     int pivot[N];
     int done = 0;
     lmdif(minpack_residual, f, (int)m, N, theta, work, 1e-7, 1e-7, 0, evaluations, 1e-8, vectors[0], 1, 1, 0,
-          &done, work + 2 * m, (int)m, pivot, vectors[1], vectors[2], vectors[3], last, work + m);
+          &done, work + 2 * m, (int)m, pivot, vectors[1], vectors[2], vectors[3], vectors[4], work + m);
     (void)minpack_residual(f, (int)m, N, theta, work, 0);
     const double left = cblas_ddot((int)m, work, 1, work, 1);
     free(work);
     return left;
 }
 
-/// The curve beside the present shapes and gain.
-static void set_curve(fit_t* f)
+/// The curve beside the present shapes and gain; false where the record does not determine it.
+static bool set_curve(fit_t* f)
 {
     const int m = (int)f->num_rows;
     double gram[ELEMENT_CURVE * ELEMENT_CURVE];
@@ -189,8 +188,9 @@ static void set_curve(fit_t* f)
                 ELEMENT_CURVE);
     cblas_dgemv(CblasColMajor, CblasTrans, m, ELEMENT_CURVE, 1, f->splines, m, f->state, 1, 0,
                 f->element.curve, 1);
-    (void)LAPACKE_dposv(LAPACK_COL_MAJOR, 'U', ELEMENT_CURVE, 1, gram, ELEMENT_CURVE, f->element.curve,
-                        ELEMENT_CURVE);
+    return LAPACKE_dposv(LAPACK_COL_MAJOR, 'U', ELEMENT_CURVE, 1, gram, ELEMENT_CURVE, f->element.curve,
+                         ELEMENT_CURVE) == 0 &&
+           fabs(f->element.gain) > 0;
 }
 
 static double rmse_of(const element_t* element, const element_record_t* record)
@@ -226,8 +226,7 @@ element_t element_fit(element_kind_t kind, const element_record_t* record, doubl
         }
     }
     (void)search(&f, best, LAST_EVALUATIONS);
-    set_curve(&f);
-    *rmse = rmse_of(&f.element, record);
+    *rmse = set_curve(&f) ? rmse_of(&f.element, record) : HUGE_VAL;
     const element_t element = f.element;
     fit_free(&f);
     return element;

@@ -26,7 +26,8 @@ bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
            !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
            !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
            !differs(hysteresis->remanence_field) && !differs(hysteresis->remanence_stiffness) &&
-           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+           !differs(hysteresis->remanence_field) && hysteresis->width == NULL &&
+           hysteresis->start_fraction == NULL;
 }
 
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
@@ -422,7 +423,8 @@ double hysteresis_inverse(const hysteresis_state_t* state, double wanted, double
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis)
 {
     return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) && !differs(hysteresis->moving) &&
-           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+           !differs(hysteresis->remanence_field) && hysteresis->width == NULL &&
+           hysteresis->start_fraction == NULL;
 }
 
 void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,

@@ -175,8 +175,10 @@ static void test_derivatives_are_those_of_the_output(void)
     free(derivatives);
 }
 
-/// Out of range it stays at the ends; a shift of the start moves the first output by as much and is then
-/// forgotten on the way to saturation.
+/// Out of range it stays at the ends; a shift of the start moves the first output by as much and fades on the
+/// way to the top: with slope steepness or more up to z = 0, and from there 1 - z falling at least as
+/// exp(-steepness x), two courses of the same equation differ at the end by order * exp(1 - steepness) of
+/// what they did at the start.
 static void test_ends_and_start(void)
 {
     const element_record_t record = calibrate(bouc_wen);
@@ -187,9 +189,15 @@ static void test_ends_and_start(void)
     double shifted[4];
     element_run(&element, 0, beyond, 4, from_ends);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, from_ends[1], from_ends[2]);
-    element_run(&element, 0.1, beyond, 4, shifted);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, from_ends[0] + 0.1, shifted[0]);
-    TEST_ASSERT_DOUBLE_WITHIN(0.05, from_ends[3], shifted[3]);
+    const double shift = 0.2 * element.gain;
+    element_run(&element, shift, beyond, 4, shifted);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, from_ends[0] + shift, shifted[0]);
+    const double fading = element.shape[BOUC_WEN_ORDER] * exp(1 - element.shape[BOUC_WEN_STEEPNESS]);
+    TEST_ASSERT_DOUBLE_WITHIN(fading * fabs(shift), from_ends[3], shifted[3]);
+    // Beyond what it can reach it starts from as near as it gets, and then goes on.
+    element_run(&element, 100 * element.gain, beyond, 4, shifted);
+    TEST_ASSERT_TRUE(isfinite(shifted[3]));
+    TEST_ASSERT_DOUBLE_WITHIN(3 * fabs(element.gain), from_ends[3], shifted[3]);
 }
 
 static void test_bounded_numbers_come_back(void)
