@@ -24,6 +24,7 @@ typedef struct {
     const double* time;            ///< [num_samples] seconds; a record without time: one second a sample
     const double* input;           ///< [num_samples] the command, before any effect
     const record_t* record;        ///< for auxiliary columns; may be NULL when no effect names one
+    double input_min;              ///< the model's
     double input_span;             ///< the model's input_max - input_min
     double output_span;            ///< the range of the model's own output over this input
     double sample_time;            ///< median of the time steps [s]

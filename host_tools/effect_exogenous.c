@@ -1,42 +1,55 @@
 /// exogenous: gain, offset or width follow a measured auxiliary column c (temperature, load, supply
 /// pressure), counted from the value named "reference" or, without it, from the record's first.
-///     radii r_j + width c;  y' = y (1 + gain c) + offset c
-/// gain [1 per column unit], offset [output per column unit], width [envelope units per column unit]; those
-/// left out are 0. Inverse: where 1 + gain c <= 0 nothing can be reached.
+///     q = c (1 + bend c);  radii r_j + width q;  y' = y (1 + gain q) + offset q
+/// gain [1 per column unit], offset [output per column unit], width [envelope units per column unit], bend [1
+/// per column unit]: a material's law to second order, fitted up to |bend c| = 0.6; those left out are 0.
+/// Inverse: where 1 + gain q <= 0 nothing can be reached.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
-enum { GAIN, OFFSET, WIDTH };
+enum { GAIN, OFFSET, WIDTH, BEND };
 
 static const effect_parameter_t parameters[] = {
     [GAIN] = {"gain", "1/column", ANY_NUMBER, .optional = true},
     [OFFSET] = {"offset", "output/column", ANY_NUMBER, .optional = true},
     [WIDTH] = {"width", "envelope/column", ANY_NUMBER, .optional = true},
+    [BEND] = {"bend", "1/column", ANY_NUMBER, .optional = true},
 };
 
 /// For a column that goes as far as 1 from its reference; effect_use_limits divides by how far it goes.
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
+    if (parameter == BEND) {
+        *result = limits_linear(-0.6, 0.6, 0.0, 0.1, -0.1, 0.0);
+        return;
+    }
     const double size = parameter == GAIN     ? 1.0
                         : parameter == OFFSET ? limits_output_span(run)
                                               : fmax(run->largest_radius, DBL_MIN);
     *result = limits_linear(-2.0 * size, 2.0 * size, 0.0, 0.05 * size, -0.05 * size, 0.0);
 }
 
+static double law(const double* parameter, double column)
+{
+    return column * (1.0 + parameter[BEND] * column);
+}
+
 static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
-        series[i] = series[i] * (1.0 + parameter[GAIN] * column[i]) + parameter[OFFSET] * column[i];
+        const double q = law(parameter, column[i]);
+        series[i] = series[i] * (1.0 + parameter[GAIN] * q) + parameter[OFFSET] * q;
     }
 }
 
 static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
-        const double gain = 1.0 + parameter[GAIN] * column[i];
+        const double q = law(parameter, column[i]);
+        const double gain = 1.0 + parameter[GAIN] * q;
         if (gain > 0.0) {
-            series[i] = (series[i] - parameter[OFFSET] * column[i]) / gain;
+            series[i] = (series[i] - parameter[OFFSET] * q) / gain;
         }
     }
 }
@@ -51,7 +64,7 @@ static void configure(const effect_run_t* run, const double* parameter, const do
         hysteresis->width = xcalloc(run->num_samples, sizeof(double));
     }
     for (size_t i = 0; i < run->num_samples; ++i) {
-        hysteresis->width[i] += parameter[WIDTH] * column[i];
+        hysteresis->width[i] += parameter[WIDTH] * law(parameter, column[i]);
     }
 }
 

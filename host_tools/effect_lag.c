@@ -4,16 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void lag_series(const effect_run_t* run, const double* tau, double* series)
-{
-    double from = run->num_samples > 0 ? series[0] : 0.0;
-    for (size_t i = 1; i < run->num_samples; ++i) {
-        const double to = series[i];
-        series[i] = lag_next(lag_step(run->time[i] - run->time[i - 1], *tau), series[i - 1], from, to);
-        from = to;
-    }
-}
-
 void series_derivatives(const effect_run_t* run, const double* series, double* slope, double* curvature)
 {
     const size_t count = run->num_samples;
@@ -79,17 +69,46 @@ void series_invert(const effect_run_t* run, const double* parameter, series_map_
     free(defect);
 }
 
-static void lead_series(const effect_run_t* run, const double* tau, double* series)
+static double tau_at(const double* lag, double value)
+{
+    const bool grows = fabs(lag[LAG_GROWTH]) > 0.0;
+    const double level = grows ? fmin(fmax((value - lag[LAG_MIDDLE]) / lag[LAG_HALF], -1.0), 1.0) : 0.0;
+    return lag[LAG_TAU] * (1.0 + lag[LAG_GROWTH] * level);
+}
+
+void series_lag(const effect_run_t* run, const double* lag, double* series)
+{
+    const bool grows = fabs(lag[LAG_GROWTH]) > 0.0;
+    double from = run->num_samples > 0 ? series[0] : 0.0;
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double step = run->time[i] - run->time[i - 1];
+        const double state = series[i - 1];
+        const double to = series[i];
+        series[i] = lag_next(lag_step_held(step, tau_at(lag, state), lag[LAG_HOLD]), state, from, to);
+        if (grows) {
+            const double half_way = 0.5 * (state + series[i]);
+            series[i] = lag_next(lag_step_held(step, tau_at(lag, half_way), lag[LAG_HOLD]), state, from, to);
+        }
+        from = to;
+    }
+}
+
+static void series_lead(const effect_run_t* run, const double* lag, double* series)
 {
     const size_t size = run->num_samples * sizeof(double);
     double* slope = xmalloc(size);
     double* curvature = xmalloc(size);
     series_derivatives(run, series, slope, curvature);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        series[i] += *tau * slope[i];
+        series[i] += tau_at(lag, series[i]) * slope[i];
     }
     free(slope);
     free(curvature);
+}
+
+void series_lag_invert(const effect_run_t* run, const double* lag, double* series)
+{
+    series_invert(run, lag, series_lag, series_lead, series);
 }
 
 const effect_parameter_t lag_parameter = {"tau", "s", AT_LEAST_0};
@@ -100,14 +119,7 @@ void lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* limi
     *limits = limits_time_constant(run);
 }
 
-void lag_apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
+effect_limits_t hold_limits(void)
 {
-    (void)column;
-    lag_series(run, parameter, series);
-}
-
-void lag_invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
-{
-    (void)column;
-    series_invert(run, parameter, lag_series, lead_series, series);
+    return limits_linear(0.0, 1.0, 0.0, 0.1, 0.9, 0.5);
 }

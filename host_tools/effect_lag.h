@@ -15,10 +15,16 @@ typedef void series_map_t(const effect_run_t* run, const double* parameter, doub
 void series_invert(const effect_run_t* run, const double* parameter, series_map_t* apply, series_map_t* lead,
                    double* series);
 
-/// What input_lag and output_lag have in common: {tau}.
+/// A first-order lag of a whole series y: tau (1 + growth level(y')) dy'/dt = y - y', at rest at its first
+/// value before the record, level(y') = (y' - middle) / half within -1 ... 1; hold as in lag_step_held. With
+/// growth 0 exact, else with the time constant half way through each step.
+enum { LAG_TAU, LAG_HOLD, LAG_GROWTH, LAG_MIDDLE, LAG_HALF, LAG_NUMBERS };
+void series_lag(const effect_run_t* run, const double* lag, double* series);
+void series_lag_invert(const effect_run_t* run, const double* lag, double* series);
+
+/// A parameter {tau} and its limits; limits of a hold.
 extern const effect_parameter_t lag_parameter;
 void lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
-void lag_apply(const effect_run_t* run, const double* parameter, const double* column, double* series);
-void lag_invert(const effect_run_t* run, const double* parameter, const double* column, double* series);
+effect_limits_t hold_limits(void);
 
 #endif

@@ -51,6 +51,7 @@ effect_run_t effect_run_new(const model_t* model, const record_t* record)
                         .time = record->time,
                         .input = record->input,
                         .record = record,
+                        .input_min = model->input_min,
                         .input_span = model->input_max - model->input_min,
                         .output_min = model_output_min(model),
                         .output_max = model_output_max(model),

@@ -13,6 +13,14 @@ lag_step_t lag_step(double step, double tau)
     return (lag_step_t){1.0 - missing, z < 1e-5 ? z * (0.5 - z / 6.0) : 1.0 - missing / z};
 }
 
+lag_step_t lag_step_held(double step, double tau, double hold)
+{
+    lag_step_t lag = lag_step(step, tau);
+    const double end = hold > 0.0 ? 1.0 - lag.decay : 0.0;
+    lag.ramp += fabs(hold) * (end - lag.ramp);
+    return lag;
+}
+
 double lag_next(lag_step_t lag, double state, double from, double to)
 {
     return lag.decay * state + (1.0 - lag.decay) * from + lag.ramp * (to - from);

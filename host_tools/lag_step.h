@@ -8,6 +8,9 @@ typedef struct {
 } lag_step_t;
 /// tau 0: the input itself.
 lag_step_t lag_step(double step, double tau);
+/// The same where the input does not go straight between the samples: hold 1, it is at once where the next
+/// sample has it; -1, it stays until then; 0, straight.
+lag_step_t lag_step_held(double step, double tau, double hold);
 double lag_next(lag_step_t lag, double state, double from, double to);
 
 #endif

@@ -14,7 +14,7 @@ static const double coarse_step = 0.004;
 static const effect_case_t cases[] = {
     {"gain_offset", NULL, {1.2, 0.1}, 0.0},
     {"delay", NULL, {0.083}, 1.0},
-    {"input_lag", NULL, {0.15}, 1.0},
+    {"input_lag", NULL, {0.15, 0.3}, 1.3},
     {"slew_limit", NULL, {1.5}, 1.0},
     {"rate_dependence", "play_lag", {0.06}, 1.0},
     {"rate_dependence", "widening", {0.03}, 1.0},
@@ -43,7 +43,7 @@ static const effect_case_t cases[] = {
     {"drift", "fine_spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1, 0.05, 0.1, 0.05, 0.1}, 0.0},
     {"periodic_disturbance", NULL, {0.55, 0.05, -0.03, 0.01, 0.02, -0.015, 0.01}, 0.0},
     {"quantization", NULL, {0.07, 0.02}, 0.0},
-    {"exogenous", NULL, {0.03, 0.02, 0.01}, 0.0},
+    {"exogenous", NULL, {0.03, 0.02, 0.01, 0.05}, 0.0},
 };
 
 size_t effect_case_count(void)

@@ -67,7 +67,9 @@ static double drive(plant_t* plant, double u)
         return plant->history[(plant->steps + length - late) % length];
     }
     if (is(plant, "input_lag")) {
-        plant->drive += plant->dt / plant->p[0] * (u - plant->drive);
+        const double half_range = (plant->model->input_max - plant->model->input_min) / 2;
+        const double level = clamp(plant->drive / half_range, -1, 1);
+        plant->drive += plant->dt / (plant->p[0] * (1 + plant->p[1] * level)) * (u - plant->drive);
         return plant->drive;
     }
     if (is(plant, "slew_limit")) {
@@ -176,7 +178,8 @@ static double plays(plant_t* plant, double command, double temperature)
     const model_t* model = plant->model;
     const double half_range = (model->input_max - model->input_min) / 2;
     double v = field_inside(plant, command);
-    double extra = is(plant, "exogenous") ? plant->p[2] * temperature : 0;
+    double extra =
+        is(plant, "exogenous") ? plant->p[2] * (temperature + plant->p[3] * temperature * temperature) : 0;
     if (by(plant, "noncongruency", "moving")) {
         v += plant->p[0] * half_range * (plant->sum - plant->middle) / plant->half;
     }
@@ -261,7 +264,8 @@ static double body(plant_t* plant, double y, double temperature)
         return p[0] * y + p[1];
     }
     if (is(plant, "exogenous")) {
-        return y * (1 + p[0] * temperature) + p[1] * temperature;
+        const double law = temperature + p[3] * temperature * temperature;
+        return y * (1 + p[0] * law) + p[1] * law;
     }
     if (by(plant, "wear", "response")) {
         return worn(plant, y);

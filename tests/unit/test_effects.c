@@ -254,6 +254,19 @@ static void json_gives_the_use_back(void)
     }
 }
 
+/// A program's filter takes each sample as it comes: y += (1 - exp(-h / tau)) (x - y).
+static void a_held_lag_is_a_sampled_filter(void)
+{
+    const double tau = 0.02;
+    const effect_use_t use = effect_case_use(&(effect_case_t){"output_lag", NULL, {tau, 1.0}, 1.0});
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    double y = plain[0];
+    for (size_t i = 1; i < run.num_samples; ++i) {
+        y += -expm1(-(run.time[i] - run.time[i - 1]) / tau) * (plain[i] - y);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, y, output[i]);
+    }
+}
+
 /// Without a reference the column counts from its first value, with one from there.
 static void the_reference_shifts_the_column(void)
 {
@@ -261,6 +274,7 @@ static void the_reference_shifts_the_column(void)
     use.parameter[0] = 0.0;
     use.parameter[1] = 0.5;
     use.parameter[2] = 0.0;
+    use.parameter[3] = 0.0;
     use.has_reference = true;
     use.reference = 18.0;
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
@@ -343,6 +357,7 @@ int main(void)
     RUN_TEST(uneven_samples_give_the_same);
     RUN_TEST(searches_run_the_same);
     RUN_TEST(json_gives_the_use_back);
+    RUN_TEST(a_held_lag_is_a_sampled_filter);
     RUN_TEST(the_reference_shifts_the_column);
     RUN_TEST(order_is_the_catalogue_s);
     RUN_TEST(inverse_gives_the_wanted_output);

@@ -197,6 +197,11 @@ static void recover(const effect_case_t* of)
 {
     search_t search = {.use = effect_case_use(of)};
     search.num = search.use.effect->num_parameters;
+    // What a case leaves out is left out of its search.
+    while (search.use.effect->parameter[search.num - 1].optional &&
+           !(fabs(of->parameter[search.num - 1]) > 0)) {
+        search.num--;
+    }
     double truth[EFFECT_MAX_PARAMETERS];
     fine_plant(of, &model, &record, measured);
     for (size_t p = 0; p < search.num; ++p) {
