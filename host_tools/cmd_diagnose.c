@@ -95,7 +95,7 @@ static outcome_t write_augmented(const char* path, const model_t* model, const d
 {
     model_t augmented = model_copy(model);
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
+    const size_t num_uses = diagnosis_handed_out(d, uses);
     if (num_uses > 0) {
         json_decref(augmented.effects);
         augmented.effects = parameters_to_json(uses, num_uses);

@@ -42,7 +42,7 @@ typedef struct {
     size_t num_hypotheses;
     hypothesis_t* hypothesis; ///< owns what the causes point to
     double* before;           ///< [num_samples] the model's output
-    double* after;            ///< [num_samples] with the likeliest cause's effects
+    double* after;            ///< [num_samples] with the effects that the verdict hands out
     bool is_unknown;          ///< the verdict is ["unknown"]
     bool is_none;             ///< the verdict is []
     bool confident;

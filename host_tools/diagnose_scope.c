@@ -21,9 +21,15 @@ static const double least_turn = 0.03;
 
 enum { CELLS = 8 };
 
+size_t scope_first_fitted(const model_t* model)
+{
+    const json_int_t first = json_integer_value(json_object_get(model->identification, "first_fitted"));
+    return first > 0 ? (size_t)first : 0;
+}
+
 static size_t first_judged(const model_t* model, const record_t* record)
 {
-    if (json_integer_value(json_object_get(model->identification, "first_fitted")) <= 0) {
+    if (scope_first_fitted(model) == 0) {
         return 0;
     }
     const size_t most = (size_t)(most_left_out * (double)record->num_samples);
