@@ -160,17 +160,11 @@ static double correction_of(const work_t* w)
 static void describe_gap(const work_t* w, diagnosis_t* d)
 {
     const double floor = sqrt(w->scale.floor + (w->run.body != NULL ? w->correction : 0));
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (size_t t = 0; t < w->run.num_samples; t++) {
-        low = fmin(low, w->gap.output[t]);
-        high = fmax(high, w->gap.output[t]);
-    }
     d->num_samples = w->record->num_samples;
     d->num_judged = w->gap.num_judged;
     d->scope = w->scope;
     d->rmse = w->plain_rmse;
-    d->relative = d->rmse / (high - low);
+    d->relative = d->rmse / series_span(w->record->output, w->record->num_samples);
     d->noise = sqrt(w->scale.noise);
     d->noise_floor = floor;
     d->closable = fmax(0, 1 - floor / d->rmse);
@@ -306,7 +300,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     mind_scope(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
-    if (w.thinned.record.num_samples < record->num_samples) {
+    if (w.thinned.record.num_samples < record->num_samples && !d->is_unknown && !d->is_none) {
         fit_on_whole(&w, &d->cause[0]);
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);
@@ -326,7 +320,11 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     thinned_free(&w.thinned);
     effect_run_free(&w.whole);
     fast_plays_free(fast);
-    return OUTCOME_OK;
+    return isfinite(d->rmse)
+               ? OUTCOME_OK
+               : message_error(OUTCOME_NUMERICAL, (location_t){.file = record->path},
+                               "the gap's mean square is beyond a double's range, expected outputs of the "
+                               "model and the record in a unit that leaves room for their squares");
 }
 
 void diagnosis_free(diagnosis_t* diagnosis)
