@@ -14,7 +14,7 @@ static const double most_of_input = 0.5;
 /// From this part of a record on, what lies beyond the model's range decides which effect fits best.
 static const double much_beyond = 0.05;
 /// A record that is mostly in loops the calibration never made says more of the weights, which larger loops
-/// leave open, than of effects. A bench record of loops of several sizes leaves 0.05 to 0.3 of other work.
+/// leave open, than of effects. A bench record of loops of several sizes leaves 0.1 to 0.3 of mixed work.
 static const double much_unvisited = 0.5;
 /// Of the range: less than this way back is no reversal but noise.
 static const double least_turn = 0.03;

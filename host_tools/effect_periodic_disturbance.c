@@ -1,10 +1,9 @@
 /// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
-///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t), h =
-///     1, 2, 3
-/// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time.
-/// frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and half the sample
-/// rate; amplitudes [output units]. Lines at the first ten multiples of a periodic input's frequency are an
-/// answer to it.
+///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t)
+/// h = 1, 2, 3. amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the
+/// record's own time. frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and
+/// half the sample rate; amplitudes [output units]. Lines at the first ten multiples of a periodic input's
+/// frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
