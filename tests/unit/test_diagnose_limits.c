@@ -180,8 +180,8 @@ static void test_a_range_that_was_left_is_told(void)
 static void test_loops_that_were_never_made_leave_doubt(void)
 {
     static double bench_input[SAMPLES];
-    static double
-        bench_output[SAMPLES]; // 0: where the misfit is noise, read only for the steps of a converter
+    // All 0: where the model's misfit is its noise, read only for the steps of a converter.
+    static double bench_output[SAMPLES];
     const record_t bench = {.path = "bench.csv",
                             .num_samples = SAMPLES,
                             .time = time_of,
