@@ -95,7 +95,7 @@ static outcome_t write_augmented(const char* path, const model_t* model, const d
 {
     model_t augmented = model_copy(model);
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
+    const size_t num_uses = diagnosis_handed_out(d, uses);
     if (num_uses > 0) {
         json_decref(augmented.effects);
         augmented.effects = parameters_to_json(uses, num_uses);
@@ -153,25 +153,30 @@ typedef struct {
     budget_t budget;
 } findings_t;
 
-static json_t* findings_json(const findings_t* found)
+/// JSON has no infinity: OUTCOME_NUMERICAL (reported) where a number is one. *object: owned by the caller.
+static outcome_t findings_json(const findings_t* found, json_t** object)
 {
-    json_t* object = diagnosis_to_json(&found->diagnosis);
+    *object = diagnosis_to_json(&found->diagnosis);
+    bool is_whole = *object != NULL;
     const trial_t* trial = &found->trial;
-    if (found->has_trial) {
-        json_object_set_new(object, "test",
-                            json_pack("{s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after",
-                                      trial->after, "shrink", realised(trial), "predicted_shrink",
-                                      trial->predicted));
+    if (is_whole && found->has_trial) {
+        is_whole = json_object_set_new(*object, "test",
+                                       json_pack("{s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after",
+                                                 trial->after, "shrink", realised(trial), "predicted_shrink",
+                                                 trial->predicted)) == 0;
     }
-    if (found->has_budget) {
-        json_object_set_new(object, "budget", budget_to_json(&found->budget));
-        json_object_set_new(
-            object, "budget_total",
-            json_pack("{s:f, s:f, s:[s, s], s:f}", "rmse", found->budget.total, "cross_share",
-                      found->budget.cross_share, "cross_pair", budget_part_name(found->budget.pair[0]),
-                      budget_part_name(found->budget.pair[1]), "cross_pair_share", found->budget.pair_share));
+    if (is_whole && found->has_budget) {
+        const budget_t* budget = &found->budget;
+        json_t* total = json_pack("{s:f, s:f, s:[s, s], s:f}", "rmse", budget->total, "cross_share",
+                                  budget->cross_share, "cross_pair", budget_part_name(budget->pair[0]),
+                                  budget_part_name(budget->pair[1]), "cross_pair_share", budget->pair_share);
+        is_whole = json_object_set_new(*object, "budget", budget_to_json(budget)) == 0 &&
+                   json_object_set_new(*object, "budget_total", total) == 0;
     }
-    return object;
+    return is_whole ? OUTCOME_OK
+                    : message_error(OUTCOME_NUMERICAL, NOWHERE,
+                                    "--json: a number of the result is not finite, expected outputs in a "
+                                    "unit that leaves room for their squares");
 }
 
 static void print_budget(const budget_t* budget)
@@ -187,13 +192,13 @@ static void print_budget(const budget_t* budget)
     printf("budget: %8.3f %%  cross terms: %s\n", 100 * budget->cross_share, cross);
 }
 
-static void print_findings(const options_t* given, const model_t* model, const findings_t* found)
+/// object: what --json prints, or NULL.
+static void print_findings(const options_t* given, const model_t* model, const findings_t* found,
+                           const json_t* object)
 {
     if (given->json) {
-        json_t* object = findings_json(found);
         json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
         putchar('\n');
-        json_decref(object);
         return;
     }
     if (given->report != NULL && output_is_stdout(given->report)) {
@@ -239,6 +244,10 @@ static outcome_t find_and_report(const options_t* given, const char** paths, con
     if (outcome == OUTCOME_OK && found.has_budget) {
         outcome = chain_budget(chain, record, options, &found.diagnosis, &found.budget);
     }
+    json_t* object = NULL;
+    if (outcome == OUTCOME_OK && given->json) {
+        outcome = findings_json(&found, &object);
+    }
     if (outcome == OUTCOME_OK) {
         effect_run_t run = effect_run_new(model, record);
         const report_t report = {.model = model,
@@ -252,8 +261,9 @@ static outcome_t find_and_report(const options_t* given, const char** paths, con
         effect_run_free(&run);
     }
     if (outcome == OUTCOME_OK) {
-        print_findings(given, model, &found);
+        print_findings(given, model, &found, object);
     }
+    json_decref(object);
     diagnosis_free(&found.diagnosis);
     return outcome;
 }
@@ -351,11 +361,12 @@ outcome_t cmd_diagnose(int argc, const char** argv)
         RECORD_OPTIONS(&given.columns, &given.sample_rate),
         {"json", 0, POPT_ARG_NONE, &given.json, 0, "the result as JSON on stdout", NULL},
         POPT_TABLEEND};
-    const command_t command = {"diagnose", "MODEL RECORD", 2,
-                               "Tells where the gap between a model and a record lies, which unmodelled "
-                               "effect causes it, and how far it\n"
-                               "shrinks once the effect is modelled. Causes are judged on stretches of the "
-                               "record that their fit has not seen."};
+    const command_t command = {
+        "diagnose", "MODEL RECORD", 2,
+        "Tells where the gap between a model and a record lies, which unmodelled "
+        "effect causes it, and how far it\n"
+        "shrinks once the effect is modelled. Causes are weighed by fits to the whole record;\n"
+        "how far it shrinks is told from stretches of it."};
     const char* paths[2] = {NULL, NULL};
     bool finished = false;
     const char** rest = xcalloc((size_t)argc + 1, sizeof *rest);

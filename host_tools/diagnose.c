@@ -10,6 +10,7 @@
 #include "diagnose_verdict.h"
 #include "parallel.h"
 #include "record_thin.h"
+#include "series.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,15 +42,6 @@ typedef struct {
     double plain_error[HYPOTHESIS_BLOCKS]; ///< of the model alone: sum of squares of each block
     double plain_rmse;
 } work_t;
-
-static double sum_of(const double* values, size_t count)
-{
-    double sum = 0;
-    for (size_t i = 0; i < count; i++) {
-        sum += values[i];
-    }
-    return sum;
-}
 
 /// The converter, which add_grid put last, is known: no fit looks for it.
 static hypothesis_t without_grid(const work_t* w, const hypothesis_t* h)
@@ -159,29 +151,20 @@ static double correction_of(const work_t* w)
     double* model = xmalloc(n * sizeof *model);
     effect_simulate(&w->run, w->gap.model, w->gap.start, NULL, 0, body);
     shrink_simulate(&w->gap, &w->run, NULL, 0, model);
-    double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        sum += (body[t] - model[t]) * (body[t] - model[t]) / (double)n;
-    }
+    const double square = series_mean_square(body, model, n);
     free(body);
     free(model);
-    return sum;
+    return square;
 }
 
 static void describe_gap(const work_t* w, diagnosis_t* d)
 {
     const double floor = sqrt(w->scale.floor + (w->run.body != NULL ? w->correction : 0));
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (size_t t = 0; t < w->run.num_samples; t++) {
-        low = fmin(low, w->gap.output[t]);
-        high = fmax(high, w->gap.output[t]);
-    }
     d->num_samples = w->record->num_samples;
     d->num_judged = w->gap.num_judged;
     d->scope = w->scope;
     d->rmse = w->plain_rmse;
-    d->relative = d->rmse / (high - low);
+    d->relative = d->rmse / series_span(w->record->output, w->record->num_samples);
     d->noise = sqrt(w->scale.noise);
     d->noise_floor = floor;
     d->closable = fmax(0, 1 - floor / d->rmse);
@@ -208,12 +191,6 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     thinned_free(&fitted);
 }
 
-/// The first sample of the calibration that the model was fitted to: those before are of an unknown past.
-static json_int_t first_fitted(const model_t* model)
-{
-    return json_integer_value(json_object_get(model->identification, "first_fitted"));
-}
-
 static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
 {
     const diagnose_options_t* options = w->options;
@@ -226,7 +203,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
     // A body cannot be learned from loops whose past is unknown, nor for a range that they have none of.
-    if (options->calibration != NULL && first_fitted(model) == 0 && scope_is_within(&w->scope)) {
+    if (options->calibration != NULL && scope_first_fitted(model) == 0 && scope_is_within(&w->scope)) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, scope_is_known(&w->scope), &w->thinned.record);
         w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
@@ -237,7 +214,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
                      fmax(w->body.misfit * w->body.misfit, DBL_MIN) *
                          fmax((double)w->run.num_samples / independent_pieces, 1));
     shrink_block_errors(&w->gap, NULL, 0, w->plain_error);
-    w->plain_rmse = sqrt(sum_of(w->plain_error, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
+    w->plain_rmse = sqrt(series_sum(w->plain_error, HYPOTHESIS_BLOCKS) / (double)w->gap.num_judged);
 }
 
 /// A converter's steps that can be told from noise and that the bench did not have are a fact, whatever else
@@ -324,13 +301,13 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     forecast_causes(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
-    if (w.thinned.record.num_samples < record->num_samples) {
+    if (w.thinned.record.num_samples < record->num_samples && !d->is_unknown && !d->is_none) {
         fit_on_whole(&w, &d->cause[0]);
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);
     d->after = xmalloc(record->num_samples * sizeof *d->after);
     effect_use_t handed_out[HYPOTHESIS_MAX_EFFECTS];
-    const size_t num_handed_out = cause_handed_out(&d->cause[0], handed_out);
+    const size_t num_handed_out = diagnosis_handed_out(d, handed_out);
     shrink_simulate(&w.gap, &w.whole, NULL, 0, d->before);
     shrink_simulate(&w.gap, &w.whole, handed_out, num_handed_out, d->after);
     d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
@@ -344,7 +321,11 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     thinned_free(&w.thinned);
     effect_run_free(&w.whole);
     fast_plays_free(fast);
-    return OUTCOME_OK;
+    return isfinite(d->rmse)
+               ? OUTCOME_OK
+               : message_error(OUTCOME_NUMERICAL, (location_t){.file = record->path},
+                               "the gap's mean square is beyond a double's range, expected outputs of the "
+                               "model and the record in a unit that leaves room for their squares");
 }
 
 void diagnosis_free(diagnosis_t* diagnosis)

@@ -12,9 +12,11 @@ typedef struct {
     start_t start;
     double
         calibration_rmse; ///< the model's misfit on the record it was identified from [output], 0: not known
-    double calibration_noise;    ///< that record's own noise [output], 0: not known
-    const record_t* calibration; ///< that record, for the auxiliary columns' values then, or NULL
-    size_t num_threads;          ///< for the searches, which find the same on any number; 0: one a processor
+    double calibration_noise; ///< that record's own noise [output], 0: not known
+    /// That record, or NULL: for the body that the plant has and what is open about it, the loops that were
+    /// made, its converter's steps and the auxiliary columns' values then.
+    const record_t* calibration;
+    size_t num_threads; ///< for the searches, which find the same on any number; 0: one a processor
 } diagnose_options_t;
 
 enum { DIAGNOSIS_MOST_CAUSES = 12 };
@@ -23,8 +25,10 @@ enum { DIAGNOSIS_MOST_CAUSES = 12 };
 typedef struct {
     const hypothesis_t* hypothesis;
     double probability;
-    double
-        rmse_after; ///< on held-out stretches; where another body was judged, of the fit put into the model
+    /// Of the model with the effects handed out, over what is judged: by fits to other stretches where the
+    /// model's own plays are judged, without a converter's steps, and all its effects are handed out; else by
+    /// the fit to the whole.
+    double rmse_after;
     double shrink, shrink_low, shrink_high;        ///< with the effects that are handed out
     bool is_kept_back[HYPOTHESIS_MAX_EFFECTS];     ///< an effect of it that would not help another record
     bool is_of_one_record[HYPOTHESIS_MAX_EFFECTS]; ///< an effect of it that holds for this record alone
@@ -42,7 +46,7 @@ typedef struct {
     size_t num_hypotheses;
     hypothesis_t* hypothesis; ///< owns what the causes point to
     double* before;           ///< [num_samples] the model's output
-    double* after;            ///< [num_samples] with the likeliest cause's effects
+    double* after;            ///< [num_samples] with the effects that the verdict hands out
     bool is_unknown;          ///< the verdict is ["unknown"]
     bool is_none;             ///< the verdict is []
     bool confident;
@@ -54,7 +58,8 @@ typedef struct {
 } diagnosis_t;
 
 /// record: time or none, input and output; path is for messages. OUTCOME_BAD_INPUT (reported) for a record
-/// that cannot be judged: too short, constant input or output, gaps in time.
+/// that cannot be judged: too short, constant input or output, gaps in time. OUTCOME_NUMERICAL (reported)
+/// where the gap's square is beyond a double's range. Free what it holds whatever it returns.
 outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_options_t* options,
                    diagnosis_t* diagnosis);
 void diagnosis_free(diagnosis_t* diagnosis);

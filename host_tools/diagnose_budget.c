@@ -2,6 +2,7 @@
 
 #include "firmware.h"
 #include "reference.h"
+#include "series.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,15 +33,6 @@ const char* budget_part_name(budget_part_t part)
 const char* budget_part_text(budget_part_t part)
 {
     return parts[part].text;
-}
-
-static double mean_square_difference(const double* a, const double* b, size_t n)
-{
-    double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        sum += (a[t] - b[t]) * (a[t] - b[t]);
-    }
-    return sum / (double)n;
 }
 
 void budget_describe_cross(const budget_t* budget, char* text, size_t size)
@@ -95,16 +87,16 @@ static void share_out(const budget_chain_t* chain, double* const* stage, const d
                       double* mean_square)
 {
     const double noise = chain->noise * chain->noise;
-    const double left = mean_square_difference(stage[WITH_EFFECTS], measured, n);
+    const double left = series_mean_square(stage[WITH_EFFECTS], measured, n);
     mean_square[BUDGET_NOISE] = fmin(noise, left);
     mean_square[BUDGET_IDENTIFICATION] =
         fmin(fmax(chain->misfit * chain->misfit - noise, 0), left - mean_square[BUDGET_NOISE]);
     mean_square[BUDGET_UNEXPLAINED] = left - mean_square[BUDGET_NOISE] - mean_square[BUDGET_IDENTIFICATION];
-    mean_square[BUDGET_UNMODELLED] = mean_square_difference(stage[FULL], stage[WITH_EFFECTS], n);
-    mean_square[BUDGET_COMPRESSION] = mean_square_difference(stage[COMPRESSED], stage[FULL], n);
-    mean_square[BUDGET_CLAMPING] = mean_square_difference(stage[CLAMPED], stage[COMPRESSED], n);
-    mean_square[BUDGET_TABLE] = mean_square_difference(stage[TABULATED], stage[CLAMPED], n);
-    mean_square[BUDGET_ROUNDING] = mean_square_difference(stage[FIRMWARE], stage[TABULATED], n);
+    mean_square[BUDGET_UNMODELLED] = series_mean_square(stage[FULL], stage[WITH_EFFECTS], n);
+    mean_square[BUDGET_COMPRESSION] = series_mean_square(stage[COMPRESSED], stage[FULL], n);
+    mean_square[BUDGET_CLAMPING] = series_mean_square(stage[CLAMPED], stage[COMPRESSED], n);
+    mean_square[BUDGET_TABLE] = series_mean_square(stage[TABULATED], stage[CLAMPED], n);
+    mean_square[BUDGET_ROUNDING] = series_mean_square(stage[FIRMWARE], stage[TABULATED], n);
 }
 
 /// The pair of steps with the largest product in cross_share; `total` is the mean square that shares are of.
@@ -135,7 +127,7 @@ static outcome_t add_up(const budget_chain_t* chain, double* const* stage, const
 {
     double mean_square[BUDGET_PARTS];
     share_out(chain, stage, measured, n, mean_square);
-    const double total = mean_square_difference(stage[FIRMWARE], measured, n);
+    const double total = series_mean_square(stage[FIRMWARE], measured, n);
     double sum = total;
     for (int part = 0; part < BUDGET_PARTS; part++) {
         sum += mean_square[part];

@@ -94,8 +94,7 @@ double chain_misfit(const model_t* model, start_t start, const record_t* calibra
     double* difference = xmalloc(n * sizeof *difference);
     reference_run(model, start, calibration->input, n, difference);
     // What identify left out, the memory at the start not being known, is no misfit of the model.
-    const json_t* fitted = json_object_get(model->identification, "first_fitted");
-    const size_t given = json_is_integer(fitted) ? (size_t)json_integer_value(fitted) : 0;
+    const size_t given = scope_first_fitted(model);
     const size_t first = given < n ? given : 0;
     double sum = 0;
     for (size_t t = 0; t < n; t++) {

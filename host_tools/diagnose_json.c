@@ -85,7 +85,7 @@ static json_t* verdict_json(const diagnosis_t* d)
         json_array_append_new(sets, names_of(d->cause[d->indistinguishable[k]].hypothesis));
     }
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    const size_t num_uses = d->is_unknown ? 0 : cause_handed_out(&d->cause[0], uses);
+    const size_t num_uses = diagnosis_handed_out(d, uses);
     return json_pack("{s:o, s:b, s:o, s:s, s:o}", "effects", verdict_effects(d), "confident", d->confident,
                      "indistinguishable", sets, "advice", d->advice, "augmented_with",
                      names_of_uses(uses, num_uses));

@@ -14,16 +14,22 @@ static const double most_of_input = 0.5;
 /// From this part of a record on, what lies beyond the model's range decides which effect fits best.
 static const double much_beyond = 0.05;
 /// A record that is mostly in loops the calibration never made says more of the weights, which larger loops
-/// leave open, than of effects. A bench record of loops of several sizes leaves 0.05 to 0.3 of other work.
+/// leave open, than of effects. A bench record of loops of several sizes leaves 0.1 to 0.3 of mixed work.
 static const double much_unvisited = 0.5;
 /// Of the range: less than this way back is no reversal but noise.
 static const double least_turn = 0.03;
 
 enum { CELLS = 8 };
 
+size_t scope_first_fitted(const model_t* model)
+{
+    const json_int_t first = json_integer_value(json_object_get(model->identification, "first_fitted"));
+    return first > 0 ? (size_t)first : 0;
+}
+
 static size_t first_judged(const model_t* model, const record_t* record)
 {
-    if (json_integer_value(json_object_get(model->identification, "first_fitted")) <= 0) {
+    if (scope_first_fitted(model) == 0) {
         return 0;
     }
     const size_t most = (size_t)(most_left_out * (double)record->num_samples);

@@ -18,6 +18,8 @@ typedef struct {
     double unvisited;
 } scope_t;
 
+/// The first sample of the calibration that the model was fitted to: those before are of an unknown past.
+size_t scope_first_fitted(const model_t* model);
 /// calibration: the record that the model was identified from, or NULL.
 scope_t scope_of(const model_t* model, const record_t* calibration, const record_t* record);
 /// Whether the record keeps to the model's range, by and large.

@@ -1,6 +1,7 @@
 #include "diagnose_search.h"
 
 #include "parallel.h"
+#include "series.h"
 #include "sinusoid.h"
 #include <math.h>
 #include <stdio.h>
@@ -45,15 +46,6 @@ static int evaluations_of(const hypothesis_t* hypothesis)
     return evaluations;
 }
 
-static double mean_of(const double* values, size_t count)
-{
-    double mean = 0;
-    for (size_t i = 0; i < count; i++) {
-        mean += values[i] / (double)count;
-    }
-    return mean;
-}
-
 /// Parameters that no gradient leads to: a disturbance's frequency, from the spectrum of what `predicted`
 /// leaves.
 static bool guess_parameters(const candidates_t* c, const double* predicted, effect_use_t* use)
@@ -84,7 +76,7 @@ static void add_single(candidates_t* c, const effect_t* effect, const char* colu
     for (size_t k = 0; c->calibration != NULL && k < c->calibration->num_auxiliary; k++) {
         if (strcmp(c->calibration->auxiliary[k].name, column) == 0) {
             use.has_reference = true;
-            use.reference = mean_of(c->calibration->auxiliary[k].value, c->calibration->num_samples);
+            use.reference = series_mean(c->calibration->auxiliary[k].value, c->calibration->num_samples);
         }
     }
     (void)add(c, &use, 1);

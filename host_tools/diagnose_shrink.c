@@ -1,6 +1,7 @@
 #include "diagnose_shrink.h"
 
 #include "forecast.h"
+#include "series.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,13 +68,9 @@ size_t cause_handed_out(const cause_t* cause, effect_use_t* uses)
     return count;
 }
 
-static double sum_of(const double* values)
+size_t diagnosis_handed_out(const diagnosis_t* diagnosis, effect_use_t* uses)
 {
-    double sum = 0;
-    for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
-        sum += values[b];
-    }
-    return sum;
+    return diagnosis->is_unknown ? 0 : cause_handed_out(&diagnosis->cause[0], uses);
 }
 
 /// Likelihood ratio, chi-squared of one number, below which a record says nothing of it: 5 % level.
@@ -83,7 +80,7 @@ static double left_by(const gap_t* gap, const hypothesis_t* h)
 {
     double error[HYPOTHESIS_BLOCKS];
     shrink_block_errors(gap, h->use, h->num_uses, error);
-    return sum_of(error);
+    return series_sum(error, HYPOTHESIS_BLOCKS);
 }
 
 void shrink_settle(const gap_t* gap, hypothesis_t* hypothesis)
@@ -121,7 +118,7 @@ static bool is_nearer(const gap_t* gap, const double* a, const double* b, const 
     double of_b[HYPOTHESIS_BLOCKS];
     block_distances(gap, a, target, of_a);
     block_distances(gap, b, target, of_b);
-    return sum_of(of_a) < sum_of(of_b);
+    return series_sum(of_a, HYPOTHESIS_BLOCKS) < series_sum(of_b, HYPOTHESIS_BLOCKS);
 }
 
 /// Takes out the first effect that does harm beside the others: without it the record is met better, or what
@@ -178,7 +175,7 @@ void shrink_find(const gap_t* gap, const double* plain, bool held_out, const dou
         shrink_block_errors(gap, uses, count, left);
     }
     const forecast_t forecast = forecast_shrink(left, plain, HYPOTHESIS_BLOCKS);
-    cause->rmse_after = sqrt(sum_of(left) / (double)gap->num_judged);
+    cause->rmse_after = sqrt(series_sum(left, HYPOTHESIS_BLOCKS) / (double)gap->num_judged);
     cause->shrink = forecast.shrink;
     cause->shrink_low = forecast.low;
     cause->shrink_high = forecast.high;

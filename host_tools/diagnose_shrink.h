@@ -12,6 +12,8 @@ void shrink_block_errors(const gap_t* gap, const effect_use_t* uses, size_t num_
 
 /// The effects that the augmented model gets of a cause: uses[HYPOTHESIS_MAX_EFFECTS]; returns how many.
 size_t cause_handed_out(const cause_t* cause, effect_use_t* uses);
+/// Those of the verdict: none where it is unknown.
+size_t diagnosis_handed_out(const diagnosis_t* diagnosis, effect_use_t* uses);
 
 /// Parameters that the record says nothing about (a clip that one sample touches) become neutral: what a fit
 /// left them at may act on another record.

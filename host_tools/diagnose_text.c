@@ -24,7 +24,17 @@ void text_verdict(const diagnosis_t* diagnosis, char* text, size_t size)
     }
 }
 
-/// How far modelling a cause takes another record.
+/// What the shrink of these effects is expected on.
+static const char* outlook_of(const effect_use_t* uses, size_t count)
+{
+    bool is_bound = false;
+    for (size_t i = 0; i < count; i++) {
+        is_bound = is_bound || uses[i].is_of_one_record;
+    }
+    return is_bound ? "other stretches of this record" : "another record";
+}
+
+/// How far modelling a cause takes the data that it holds for.
 static void describe_outlook(const cause_t* cause, char* text, size_t size)
 {
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
@@ -33,12 +43,12 @@ static void describe_outlook(const cause_t* cause, char* text, size_t size)
         (void)snprintf(text, size, "Modelling it is not expected to help on another record.");
         return;
     }
-    (void)snprintf(
-        text, size,
-        "Modelling %s is predicted to shrink the error of another record by %.0f %% (90 %% interval "
-        "%.0f to %.0f %%).",
-        count < cause->hypothesis->num_uses ? "what of it helps there" : "it", 100 * cause->shrink,
-        100 * cause->shrink_low, 100 * cause->shrink_high);
+    (void)snprintf(text, size,
+                   "Modelling %s is predicted to shrink the error of %s by %.0f %% (90 %% interval "
+                   "%.0f to %.0f %%).",
+                   count < cause->hypothesis->num_uses ? "what of it helps there" : "it",
+                   outlook_of(uses, count), 100 * cause->shrink, 100 * cause->shrink_low,
+                   100 * cause->shrink_high);
 }
 
 void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* text, size_t size)
@@ -56,7 +66,7 @@ void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* t
                        gap);
     } else {
         char names[400];
-        char outlook[200];
+        char outlook[300];
         text_names(cause->hypothesis, names, sizeof names);
         describe_outlook(cause, outlook, sizeof outlook);
         (void)snprintf(text, size, "%s, and the likeliest cause is %s (probability %.0f %%%s). %s", gap,

@@ -1,6 +1,7 @@
 #include "diagnose_trial.h"
 
 #include "diagnose_shrink.h"
+#include "series.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,16 +10,8 @@ typedef struct {
     double before, after, added;
 } squares_t;
 
-static double mean_square_between(const double* a, const double* b, size_t n)
-{
-    double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        sum += (a[t] - b[t]) * (a[t] - b[t]);
-    }
-    return sum / (double)n;
-}
-
-static squares_t squares_over(const model_t* model, start_t start, const record_t* record,
+/// Over the samples from `first` on.
+static squares_t squares_over(const model_t* model, start_t start, const record_t* record, size_t first,
                               const effect_use_t* uses, size_t num_uses)
 {
     const size_t n = record->num_samples;
@@ -27,9 +20,10 @@ static squares_t squares_over(const model_t* model, start_t start, const record_
     double* augmented = xmalloc(n * sizeof *augmented);
     effect_simulate(&run, model, start, NULL, 0, plain);
     effect_simulate(&run, model, start, uses, num_uses, augmented);
-    const squares_t squares = {mean_square_between(plain, record->output, n),
-                               mean_square_between(augmented, record->output, n),
-                               mean_square_between(augmented, plain, n)};
+    const double* measured = record->output + first;
+    const squares_t squares = {series_mean_square(plain + first, measured, n - first),
+                               series_mean_square(augmented + first, measured, n - first),
+                               series_mean_square(augmented + first, plain + first, n - first)};
     free(plain);
     free(augmented);
     effect_run_free(&run);
@@ -52,13 +46,14 @@ outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diag
                     const record_t* test, trial_t* trial)
 {
     effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
-    const size_t num_uses = diagnosis->is_unknown ? 0 : cause_handed_out(&diagnosis->cause[0], uses);
+    const size_t num_uses = diagnosis_handed_out(diagnosis, uses);
     const outcome_t outcome = effect_check_columns(test, uses, num_uses);
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
-    const squares_t here = squares_over(model, start, record, uses, num_uses);
-    const squares_t there = squares_over(model, start, test, uses, num_uses);
+    const squares_t here = squares_over(model, start, record, diagnosis->scope.first_judged, uses, num_uses);
+    const size_t first = scope_of(model, NULL, test).first_judged;
+    const squares_t there = squares_over(model, start, test, first, uses, num_uses);
     *trial = (trial_t){sqrt(there.before), sqrt(there.after), predict(&here, there.added)};
     return OUTCOME_OK;
 }

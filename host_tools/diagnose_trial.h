@@ -5,7 +5,8 @@
 #include "diagnose.h"
 
 typedef struct {
-    double before, after; ///< RMSE of the plain and of the augmented model on the test record
+    double before, after; ///< RMSE of the plain and of the augmented model over what of the test record is
+                          ///< judged (diagnose_scope.h)
     double predicted;     ///< shrink expected for the test record's input, its output not looked at
 } trial_t;
 

@@ -131,10 +131,10 @@ static creep_t creep_power(const double* parameter)
     return creep;
 }
 
-/// The lags for a step; a clock's rounding changes it in the last digits only.
+/// The lags for a step: set up once for an even clock.
 static void set_step(creep_t* creep, double step)
 {
-    if (fabs(step - creep->step) <= 1e-12 * creep->step) {
+    if (lag_is_same_step(step, creep->step)) {
         return;
     }
     creep->step = step;

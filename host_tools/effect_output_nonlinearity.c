@@ -1,8 +1,7 @@
 /// output_nonlinearity: a smooth static map on the output (a sensor's characteristic, a lever's geometry).
 ///     polynomial: y' = y + half (shift + linear z + quadratic z^2 + cubic z^3),  z = (y - middle) / half
-///     two_point:  y' = y + half (1 - z^2) (bow + skew (1/2 - |bow|) z), right at both ends of the range, as
-///     a
-///                 sensor is that was calibrated there
+///     two_point:  y' = y + half (1 - z^2) (bow + skew (1/2 - |bow|) z)
+/// two_point is right at both ends of the range, as a sensor is that was calibrated there.
 /// middle and half of the model's output between its two saturations; beyond |z| = 1 the map goes on
 /// straight. All [1]; shift and linear say where the sensor was trimmed. The map increases: 1 + linear + 2
 /// quadratic z + 3 cubic z^2 > 0 on [-1, 1], which of two_point's |bow| below 1/2 and |skew| below 1 always

@@ -1,14 +1,17 @@
 /// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
-///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t), h =
-///     1, 2, 3
-/// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time.
-/// frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and half the sample
-/// rate; amplitudes [output units]. Lines at multiples of a periodic input's frequency are an answer to it.
+///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t)
+/// h = 1, 2, 3. amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the
+/// record's own time. frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and
+/// half the sample rate; amplitudes [output units]. Lines at the first ten multiples of a periodic input's
+/// frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
 enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS, HARMONICS = 3 };
+/// Of a periodic input: the lines of a loop's corners fall off as 1 / h^2, beyond the tenth less than 1e-4 of
+/// the first's energy is left in any; and the error of the input's frequency counts h times.
+enum { MOST_MULTIPLE = 10 };
 
 static const double two_pi = 6.283185307179586;
 
@@ -66,12 +69,13 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     add(run, parameter, -1.0, series);
 }
 
-/// Whether the record cannot tell the frequency from a whole multiple of the input's: an answer to a periodic
-/// input has lines there and nowhere else, in one phase for as long as the record lasts.
+/// Whether the record cannot tell the frequency from one of the first multiples of the input's: an answer to
+/// a periodic input has lines there and nowhere else, in one phase for as long as the record lasts.
 static bool is_multiple_of_input(const effect_run_t* run, double frequency)
 {
     const double multiple = round(frequency / run->input_frequency);
-    return multiple >= 1.0 && fabs(frequency - multiple * run->input_frequency) < 0.5 / run->duration;
+    return multiple >= 1.0 && multiple <= MOST_MULTIPLE &&
+           fabs(frequency - multiple * run->input_frequency) < 0.5 / run->duration;
 }
 
 static bool follows_input(const effect_run_t* run, const double* parameter)

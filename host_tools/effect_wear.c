@@ -1,9 +1,8 @@
 /// wear: the response fades (or, rate < 0, grows) with accumulated cycles: depolarisation, abrasion, fatigue.
 ///     amplitude:  S' = S_m + exp(-rate * spans) (S - S_m)
 ///     increment:  dS' = exp(-rate * spans) dS: what lies behind stays, only what follows is smaller
-///     response:   y' = y_p + exp(-rate * spans) (y - y_p), y_p = y_m + pivot * half: all of the response,
-///     about a
-///                 point of rest
+///     response:   y' = y_p + exp(-rate * spans) (y - y_p), y_p = y_m + pivot * half
+/// response scales all of it, about a point of rest.
 /// spans: the input's travel since the record's start over the width of the model's input range; S, S_m as
 /// for noncongruency; y_m, half: middle and half of the model's output between its two saturations. pivot
 /// [1], fitted to at most a quarter of their distance beyond them: fading about a point further away is a

@@ -1,6 +1,5 @@
 #include "field.h"
 
-#include "lag_step.h"
 #include <math.h>
 #include <stddef.h>
 
@@ -18,13 +17,25 @@ field_state_t field_start(double input)
     return state;
 }
 
+/// The modes' lags: set up once for an even clock.
+static void set_step(double tau, const field_state_t* from, field_state_t* to, double step)
+{
+    const bool is_set = lag_is_same_step(step, from->step);
+    to->step = is_set ? from->step : step;
+    for (size_t k = 0; k < FIELD_MODES; k++) {
+        const double odd = 2 * (double)k + 1;
+        to->lag[k] = is_set ? from->lag[k] : lag_step(step, tau / (odd * odd));
+    }
+}
+
 static void diffuse(double tau, const field_state_t* from, field_state_t* to, double step)
 {
     static const double pi = 3.14159265358979323846;
     to->diffused = to->input;
+    set_step(tau, from, to, step);
     for (size_t k = 0; k < FIELD_MODES; k++) {
         const double odd = 2 * (double)k + 1;
-        to->mode[k] = lag_next(lag_step(step, tau / (odd * odd)), from->mode[k], from->input, to->input);
+        to->mode[k] = lag_next(to->lag[k], from->mode[k], from->input, to->input);
         to->diffused += 8 / (pi * pi * odd * odd) * (to->mode[k] - to->input);
     }
 }

@@ -9,6 +9,7 @@
 #ifndef HYST_HOST_FIELD_H
 #define HYST_HOST_FIELD_H
 
+#include "lag_step.h"
 #include <stdbool.h>
 
 enum { FIELD_MODES = 6 };
@@ -24,13 +25,15 @@ bool field_is_neutral(const field_t* field);
 typedef struct {
     double input;
     double mode[FIELD_MODES];
+    double step; ///< [s] that `lag` is for
+    lag_step_t lag[FIELD_MODES];
     double diffused; ///< the mean across the lamination
     double seen;     ///< behind the excess field: what the hysteretic part sees
 } field_state_t;
 
 /// At rest at the input.
 field_state_t field_start(double input);
-/// The state when the input has moved evenly to `input` in `step` seconds.
+/// The state when the input has moved evenly to `input` in `step` seconds; of the same field as the last.
 field_state_t field_next(const field_t* field, const field_state_t* state, double input, double step);
 
 #endif

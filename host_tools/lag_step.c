@@ -2,6 +2,11 @@
 
 #include <math.h>
 
+bool lag_is_same_step(double a, double b)
+{
+    return fabs(a - b) <= 1e-9 * b;
+}
+
 lag_step_t lag_step(double step, double tau)
 {
     if (!(tau > 0.0)) {

@@ -1,16 +1,8 @@
 #include "sinusoid.h"
 
+#include "series.h"
 #include "spectrum.h"
 #include <math.h>
-
-static double mean_of(const double* series, size_t num_samples)
-{
-    double mean = 0;
-    for (size_t t = 0; t < num_samples; t++) {
-        mean += series[t] / (double)num_samples;
-    }
-    return mean;
-}
 
 /// Least-squares amplitudes at one frequency, the mean left out; the energy they explain.
 static double fit_sinusoid(const double* time, const double* series, size_t n, double mean, sinusoid_t* line)
@@ -60,7 +52,7 @@ sinusoid_t strongest_sinusoid(const double* time, double step, const double* ser
     spectrum_t spectrum = spectrum_new(time, step, series, num_samples);
     const double least = 4 / (time[num_samples - 1] - time[0]);
     const double bin = (double)strongest_bin(&spectrum, least);
-    const double mean = mean_of(series, num_samples);
+    const double mean = series_mean(series, num_samples);
     double low = fmax((bin - 0.5) * spectrum.resolution, least);
     double high = fmax((bin + 1.5) * spectrum.resolution, least);
     spectrum_free(&spectrum);
@@ -82,7 +74,7 @@ sinusoid_t strongest_sinusoid(const double* time, double step, const double* ser
 
 double sinusoid_share(const double* time, const double* series, size_t num_samples, double frequency)
 {
-    const double mean = mean_of(series, num_samples);
+    const double mean = series_mean(series, num_samples);
     double energy = 0;
     for (size_t t = 0; t < num_samples; t++) {
         energy += (series[t] - mean) * (series[t] - mean);

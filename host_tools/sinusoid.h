@@ -9,7 +9,9 @@ typedef struct {
     double frequency, sine, cosine;
 } sinusoid_t;
 
-/// The strongest line from four periods a record on. step: the times' median step, which sets the highest.
+/// The strongest line from four periods a record on. step: the times' median step, which sets the highest,
+/// half its inverse, or where samples are missing num_samples over the duration if that is less (spectrum.h):
+/// in a thinned record faster lines are not found.
 sinusoid_t strongest_sinusoid(const double* time, double step, const double* series, size_t num_samples);
 /// The part of the series' variance, 0 ... 1, in the line of this frequency.
 double sinusoid_share(const double* time, const double* series, size_t num_samples, double frequency);

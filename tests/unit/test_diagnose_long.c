@@ -137,10 +137,24 @@ static void test_wear_counts_the_whole_travel(void)
     check_verdict(&truth);
 }
 
+/// The range is the whole record's: an output that moves at one sample only, in none of the stretches.
+static void test_the_gap_is_relative_to_the_whole_output(void)
+{
+    make_input(600);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] = t == 5000 ? 3.5 : 3;
+    }
+    const diagnose_options_t options = {.calibration_rmse = noise, .calibration_noise = noise};
+    TEST_ASSERT_EQUAL(OUTCOME_OK, diagnose(&model, &record, &options, &diagnosis));
+    TEST_ASSERT_TRUE(isfinite(diagnosis.relative));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12 * diagnosis.relative, diagnosis.rmse / 0.5, diagnosis.relative);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_lag_is_judged_as_by_all_samples);
     RUN_TEST(test_wear_counts_the_whole_travel);
+    RUN_TEST(test_the_gap_is_relative_to_the_whole_output);
     return UNITY_END();
 }

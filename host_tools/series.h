@@ -1,0 +1,14 @@
+/// Sums over series of numbers.
+#ifndef HYST_HOST_SERIES_H
+#define HYST_HOST_SERIES_H
+
+#include <stddef.h>
+
+double series_sum(const double* values, size_t count);
+double series_mean(const double* values, size_t count);
+/// Mean square of the difference.
+double series_mean_square(const double* a, const double* b, size_t count);
+/// The greatest value less the least.
+double series_span(const double* values, size_t count);
+
+#endif
