@@ -170,6 +170,14 @@ class Scoring(unittest.TestCase):
         self.assertFalse(score.holds(figure, "min", 0.97, False))
         self.assertFalse(score.holds({"value": 0.7, "count": 7, "of": 10}, "min", 0.97, True))
 
+    def test_small_draw_slack_of_a_median(self):
+        """4 of 10 errors within the limit, when half are expected: P(at most 4) = 0.38 holds; 1 of 10 (0.011) does not."""
+        errors = [0.01] * 4 + [0.09] * 6
+        self.assertTrue(score.holds({"value": 0.09, "of": 10, "values": errors}, "max", 0.05, True))
+        self.assertFalse(score.holds({"value": 0.09, "of": 10, "values": errors}, "max", 0.05, False))
+        errors = [0.01] + [0.09] * 9
+        self.assertFalse(score.holds({"value": 0.09, "of": 10, "values": errors}, "max", 0.05, True))
+
     def test_where(self):
         record = {"time": np.arange(100.0), "input": np.r_[np.arange(50.0), np.arange(49.0, -1.0, -1.0)]}
         effect = np.where(np.arange(100) < 25, 2.0, 0.0)

@@ -41,6 +41,7 @@ OPEN = ("plays_large", "plays_third", "plays_pairs", "plays_confident_wrong", "p
         "one_kind_confident_wrong", "detected", "calibration_error", "plays_shrink_error", "shrink_covered", "plays_closed",
         "made_worse", "measured")
 
-# A small draw holds a rate as long as a tool that just meets the limit would do as badly in one of twenty draws.
+# A small draw holds a rate or a median as long as a tool that just meets the limit would do as badly in one of twenty
+# draws.
 SMALL_DRAW_TAIL = 0.05
 SMALL_DRAW_BELOW = 300
