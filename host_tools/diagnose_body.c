@@ -5,6 +5,7 @@
 #include "everett.h"
 #include "record_thin.h"
 #include "reference.h"
+#include "series.h"
 #include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,24 +25,15 @@ static const size_t most_calibrated = 12000;
 static const double doubt_of_tables = 0.05;
 static const double doubt_of_element = 0.002;
 
-static double mean_square_error(const double* a, const double* b, size_t n)
-{
-    double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        sum += (a[t] - b[t]) * (a[t] - b[t]);
-    }
-    return sum / (double)n;
-}
-
 /// Whether the body is at least as near to the record as the model, whatever else acts on it.
 static bool is_near(const model_t* model, start_t start, const stand_in_t* body, const record_t* record)
 {
     const size_t n = record->num_samples;
     double* output = xmalloc(n * sizeof *output);
     stand_in_run(body, model, start, 0, record->input, n, output);
-    const double with = mean_square_error(output, record->output, n);
+    const double with = series_mean_square(output, record->output, n);
     reference_run(model, start, record->input, n, output);
-    const double without = mean_square_error(output, record->output, n);
+    const double without = series_mean_square(output, record->output, n);
     free(output);
     return with <= no_more * without;
 }

@@ -27,15 +27,6 @@ candidates_t candidates_new(const gap_t* gap, const record_t* calibration, size_
     return c;
 }
 
-void candidates_free(candidates_t* candidates)
-{
-    for (size_t i = 0; i < candidates->count; i++) {
-        hypothesis_free(&candidates->hypothesis[i]);
-    }
-    free(candidates->hypothesis);
-    *candidates = (candidates_t){0};
-}
-
 /// An iteration takes one evaluation and one for each parameter's difference.
 static int evaluations_of(const hypothesis_t* hypothesis)
 {

@@ -15,7 +15,6 @@ typedef struct {
 
 /// With the hypothesis of no effect.
 candidates_t candidates_new(const gap_t* gap, const record_t* calibration, size_t num_threads);
-void candidates_free(candidates_t* candidates);
 
 /// Every effect in the catalogue, each mechanism and auxiliary column.
 void candidates_add_singles(candidates_t* candidates);

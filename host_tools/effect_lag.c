@@ -111,14 +111,6 @@ void series_lag_invert(const effect_run_t* run, const double* lag, double* serie
     series_invert(run, lag, series_lag, series_lead, series);
 }
 
-const effect_parameter_t lag_parameter = {"tau", "s", AT_LEAST_0};
-
-void lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* limits)
-{
-    (void)parameter;
-    *limits = limits_time_constant(run);
-}
-
 effect_limits_t hold_limits(void)
 {
     return limits_linear(0.0, 1.0, 0.0, 0.1, 0.9, 0.5);

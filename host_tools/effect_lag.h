@@ -22,9 +22,7 @@ enum { LAG_TAU, LAG_HOLD, LAG_GROWTH, LAG_MIDDLE, LAG_HALF, LAG_NUMBERS };
 void series_lag(const effect_run_t* run, const double* lag, double* series);
 void series_lag_invert(const effect_run_t* run, const double* lag, double* series);
 
-/// A parameter {tau} and its limits; limits of a hold.
-extern const effect_parameter_t lag_parameter;
-void lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
+/// Limits of a hold, for fitting: below 0 it is a delay.
 effect_limits_t hold_limits(void);
 
 #endif

@@ -97,14 +97,22 @@ static void configure_widening(const effect_run_t* run, const double* parameter,
     hysteresis->widening += parameter[0];
 }
 
+static const effect_parameter_t play_lag_parameter[] = {{"tau", "s", AT_LEAST_0}};
+
+static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    (void)parameter;
+    *result = limits_time_constant(run);
+}
+
 const effect_t effect_rate_dependence_play_lag = {
     .name = "rate_dependence",
     .mechanism = "play_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
-    .num_parameters = 1,
-    .parameter = &lag_parameter,
-    .limits = lag_limits,
+    .num_parameters = COUNT_OF(play_lag_parameter),
+    .parameter = play_lag_parameter,
+    .limits = play_lag_limits,
     .configure = configure_lag,
 };
 

@@ -97,10 +97,14 @@ element_state_t element_saturated(const element_t* element)
     return s;
 }
 
+double element_part(const element_t* e, double input)
+{
+    return fmin(fmax((input - e->input_min) / (e->input_max - e->input_min), 0), 1);
+}
+
 double element_step(element_state_t* s, double input)
 {
-    const element_t* e = s->element;
-    return move_to(s, fmin(fmax((input - e->input_min) / (e->input_max - e->input_min), 0), 1));
+    return move_to(s, element_part(s->element, input));
 }
 
 void element_splines(double part, double* spline)

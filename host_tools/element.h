@@ -53,6 +53,8 @@ typedef struct {
 
 /// In negative saturation: at the range's foot after a whole cycle.
 element_state_t element_saturated(const element_t* element);
+/// The input as a part of the range, limited to it.
+double element_part(const element_t* element, double input);
 /// Moves to `input` [input units], limited to the range; the state there.
 double element_step(element_state_t* state, double input);
 /// The curve's splines at a part of the range: spline[ELEMENT_CURVE], summing to 1.

@@ -2,6 +2,7 @@
 
 #include "bounded.h"
 #include "model.h"
+#include "series.h"
 #include <cblas.h>
 #include <cminpack.h>
 #include <lapacke.h>
@@ -58,23 +59,6 @@ static void take_curve_out(const fit_t* f, double* series)
     cblas_dgemv(CblasColMajor, CblasNoTrans, m, ELEMENT_CURVE, -1, f->basis, m, amount, 1, 1, series, 1);
 }
 
-static double part_of(const element_record_t* record, size_t sample)
-{
-    const double span = record->input_max - record->input_min;
-    return fmin(fmax((record->input[sample] - record->input_min) / span, 0), 1);
-}
-
-static double range_of(const element_record_t* record)
-{
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (size_t t = 0; t < record->num_samples; t++) {
-        low = fmin(low, record->output[t]);
-        high = fmax(high, record->output[t]);
-    }
-    return high - low;
-}
-
 static fit_t fit_new(element_kind_t kind, const element_record_t* record)
 {
     const size_t n = record->num_samples;
@@ -89,13 +73,13 @@ static fit_t fit_new(element_kind_t kind, const element_record_t* record)
                .state = xmalloc(m * sizeof(double))};
     for (size_t t = 0; t < n; t++) {
         double spline[ELEMENT_CURVE];
-        element_splines(part_of(record, t), spline);
+        element_splines(element_part(&f.element, record->input[t]), spline);
         for (size_t k = 0; k < ELEMENT_CURVE; k++) {
             f.splines[k * m + t] = counts(record, t) ? spline[k] : 0;
         }
         f.output[t] = counts(record, t) ? record->output[t] : 0;
     }
-    const double stiffness = record->noise / (free_bend * range_of(record));
+    const double stiffness = record->noise / (free_bend * series_span(record->output, record->num_samples));
     for (size_t b = 0; b < BENDS; b++) {
         f.splines[b * m + n + b] = stiffness;
         f.splines[(b + 1) * m + n + b] = -2 * stiffness;
@@ -269,12 +253,10 @@ void element_derivatives(const element_t* element, const double* input, size_t n
         other.ahead[k] = 1;
         fill_column(&other, 1, input, num_samples, state, derivatives + ELEMENT_FREE - ELEMENT_AHEAD + k);
     }
-    const element_record_t record = {
-        .input = input, .input_min = element->input_min, .input_max = element->input_max};
     for (size_t t = 0; t < num_samples; t++) {
         double* row = &derivatives[t * ELEMENT_FREE];
         row[ELEMENT_SHAPES] = state[t];
-        element_splines(part_of(&record, t), row + ELEMENT_SHAPES + 1);
+        element_splines(element_part(element, input[t]), row + ELEMENT_SHAPES + 1);
     }
     free(state);
 }
@@ -286,7 +268,7 @@ static double expected(const element_t* element, const element_record_t* record,
         const bounds_t b = shapes[element->kind][number].bounds;
         return b.high - b.low;
     }
-    return number < ELEMENT_FREE - ELEMENT_AHEAD ? range_of(record) : 1;
+    return number < ELEMENT_FREE - ELEMENT_AHEAD ? series_span(record->output, record->num_samples) : 1;
 }
 
 void element_precision(const element_t* element, const element_record_t* record, double* precision)

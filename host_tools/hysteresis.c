@@ -26,8 +26,7 @@ bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
            !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
            !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
            !differs(hysteresis->remanence_field) && !differs(hysteresis->remanence_stiffness) &&
-           !differs(hysteresis->remanence_field) && hysteresis->width == NULL &&
-           hysteresis->start_fraction == NULL;
+           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
 }
 
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis)

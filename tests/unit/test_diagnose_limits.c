@@ -1,3 +1,4 @@
+#include "classical_model.h"
 #include "diagnose.h"
 #include "diagnose_text.h"
 #include "effect_catalogue.h"
@@ -24,16 +25,7 @@ static const record_t record = {
 void setUp(void)
 {
     noise_source = random_new(21);
-    model = model_new("plant");
-    model.input_min = 0;
-    model.input_max = 10;
-    curve_free(&model.nonhysteretic);
-    model.nonhysteretic = curve_linear(0.5, 1);
-    model_set_num_plays(&model, PLAYS);
-    for (size_t j = 0; j < PLAYS; j++) {
-        model.radius[j] = 0.5 * (double)(j + 1);
-        model.weight[j] = 0.3 / (double)(j + 1);
-    }
+    model = classical_model_of_falling_weights(PLAYS);
     for (size_t t = 0; t < SAMPLES; t++) {
         time_of[t] = 0.01 * (double)t;
         input[t] = 5 - 4 * cos(2 * pi * frequency * time_of[t]);

@@ -1,3 +1,4 @@
+#include "classical_model.h"
 #include "diagnose_shrink.h"
 #include "effect_catalogue.h"
 #include "random.h"
@@ -25,16 +26,7 @@ static void judge_output(void)
 /// Classical PI over 0 ... 10 under two sines; `output` is the model's own.
 void setUp(void)
 {
-    model = model_new("plant");
-    model.input_min = 0;
-    model.input_max = 10;
-    curve_free(&model.nonhysteretic);
-    model.nonhysteretic = curve_linear(0.5, 1);
-    model_set_num_plays(&model, PLAYS);
-    for (size_t j = 0; j < PLAYS; j++) {
-        model.radius[j] = 0.5 * (double)(j + 1);
-        model.weight[j] = 0.3;
-    }
+    model = classical_model(PLAYS);
     for (size_t t = 0; t < SAMPLES; t++) {
         time_of[t] = 0.01 * (double)t;
         input[t] = 5 - 3 * cos(0.031 * (double)t) - 2 * cos(0.0173 * (double)t);

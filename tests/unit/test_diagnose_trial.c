@@ -1,3 +1,4 @@
+#include "classical_model.h"
 #include "diagnose_trial.h"
 #include "effect_catalogue.h"
 #include "random.h"
@@ -40,16 +41,7 @@ static void make_work(work_t* work, double speed, uint64_t seed)
 
 void setUp(void)
 {
-    model = model_new("plant");
-    model.input_min = 0;
-    model.input_max = 10;
-    curve_free(&model.nonhysteretic);
-    model.nonhysteretic = curve_linear(0.5, 1);
-    model_set_num_plays(&model, PLAYS);
-    for (size_t j = 0; j < PLAYS; j++) {
-        model.radius[j] = 0.5 * (double)(j + 1);
-        model.weight[j] = 0.3;
-    }
+    model = classical_model(PLAYS);
     make_work(&slow, 0.25, 21);
     make_work(&fast, 1, 22);
 }

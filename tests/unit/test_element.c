@@ -2,6 +2,7 @@
 #include "element_fit.h"
 #include "model.h"
 #include "random.h"
+#include "series.h"
 #include <math.h>
 #include <stdlib.h>
 #include <unity.h>
@@ -91,15 +92,6 @@ static void run_plant(plant_step_t* step)
     }
 }
 
-static double rms_error(void)
-{
-    double sum = 0;
-    for (size_t t = 0; t < SAMPLES; t++) {
-        sum += (predicted[t] - output[t]) * (predicted[t] - output[t]) / SAMPLES;
-    }
-    return sqrt(sum);
-}
-
 static element_record_t calibrate(plant_step_t* step)
 {
     random_t random = random_new(9);
@@ -128,7 +120,8 @@ static void check_kind(element_kind_t kind, plant_step_t* step)
     make_input(2);
     run_plant(step);
     element_run(&element, 0, input, SAMPLES, predicted);
-    TEST_ASSERT_TRUE(rms_error() < 3 * record.noise * sqrt((double)ELEMENT_FREE / SAMPLES));
+    TEST_ASSERT_TRUE(sqrt(series_mean_square(predicted, output, SAMPLES)) <
+                     3 * record.noise * sqrt((double)ELEMENT_FREE / SAMPLES));
     double other;
     (void)element_fit(ELEMENT_KINDS - 1 - kind, &record, &other);
     TEST_ASSERT_TRUE(other > rmse);
