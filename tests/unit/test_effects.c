@@ -232,6 +232,36 @@ static void searches_run_the_same(void)
     fast_plays_free(fast);
 }
 
+/// Where another body stands in, another start is that body's own, and a mean field beside it adds what it
+/// adds to the plays: both as searches and as the model run them, to what searches_run_the_same allows.
+static void a_mean_field_acts_beside_another_start(void)
+{
+    const effect_use_t uses[2] = {
+        effect_case_use(&(effect_case_t){"noncongruency", "remanence_field", {0.15}, 1.3}),
+        effect_case_use(&(effect_case_t){"initial_state", NULL, {0.4, 0.5, 0.6, 0.7, 0.6, 0.5}, 1.0})};
+    const stand_in_t body = {.duhem = duhem_new(&model)};
+    static double with_field[CASE_SAMPLES];
+    static double without[CASE_SAMPLES];
+    fast_plays_t* fast = fast_plays_new(&model, START_NEGATIVE_SATURATION);
+    effect_run_t search = run;
+    search.fast = fast;
+    search.body = &body;
+    effect_simulate(&search, &model, START_NEGATIVE_SATURATION, uses, 2, with_field);
+    effect_simulate(&search, &model, START_NEGATIVE_SATURATION, &uses[1], 1, without);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, uses, 1, output);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, NULL, 0, plain);
+    for (size_t i = 0; i < record.num_samples; ++i) {
+        with_field[i] -= without[i];
+        output[i] -= plain[i];
+    }
+    const double slope = effect_case_speed(&model, &record) / run.input_rate;
+    const double bound = 2.0 * 1.4 * (8e-7 + 1e-5 * run.input_span * slope);
+    TEST_ASSERT_TRUE(largest_difference(with_field, output, record.num_samples) <= bound);
+    memset(plain, 0, record.num_samples * sizeof(double));
+    TEST_ASSERT_TRUE(largest_difference(output, plain, record.num_samples) > 10.0 * bound);
+    fast_plays_free(fast);
+}
+
 static void json_gives_the_use_back(void)
 {
     for (size_t c = 0; c < effect_case_count(); ++c) {
@@ -356,6 +386,7 @@ int main(void)
     RUN_TEST(three_times_the_rate_gives_the_same);
     RUN_TEST(uneven_samples_give_the_same);
     RUN_TEST(searches_run_the_same);
+    RUN_TEST(a_mean_field_acts_beside_another_start);
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);
     RUN_TEST(the_reference_shifts_the_column);
