@@ -114,6 +114,18 @@ static void mind_scope(const work_t* w, diagnosis_t* d)
     }
 }
 
+/// What was found outside the catalogue can be named once it is measured.
+static void mind_outside(diagnosis_t* d)
+{
+    const char* looks = hypothesis_outside(d->cause[0].hypothesis);
+    if (looks != NULL) {
+        const size_t length = strlen(d->advice);
+        snprintf(d->advice + length, sizeof d->advice - length,
+                 "%sit looks like %s: record the temperature as a column and diagnose again",
+                 length > 0 ? "; then " : "", looks);
+    }
+}
+
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
@@ -298,6 +310,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     verdict_find(&w.scale, &w.candidates, d);
     judge_causes(&w, d);
     mind_scope(&w, d);
+    mind_outside(d);
     forecast_causes(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);

@@ -88,6 +88,15 @@ bool hypothesis_names_use(const hypothesis_t* hypothesis, const effect_use_t* us
     return false;
 }
 
+const char* hypothesis_outside(const hypothesis_t* hypothesis)
+{
+    const char* outside = NULL;
+    for (size_t i = 0; outside == NULL && i < hypothesis->num_uses; i++) {
+        outside = hypothesis->use[i].effect->outside;
+    }
+    return outside;
+}
+
 bool hypothesis_same_names(const hypothesis_t* a, const hypothesis_t* b)
 {
     bool same = a->num_uses == b->num_uses;

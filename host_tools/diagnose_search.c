@@ -104,12 +104,15 @@ static int by_mean_square(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-/// The best mechanism of each name, best first: leaders[] of the hypotheses with one effect; returns how
-/// many.
+/// The best mechanism of each name of the catalogue, best first: leaders[] of the hypotheses with one effect;
+/// returns how many.
 static size_t leading_singles(const candidates_t* c, hypothesis_t* leaders)
 {
     size_t count = 0;
     for (size_t i = 1; i <= c->num_singles; i++) {
+        if (hypothesis_outside(&c->hypothesis[i]) != NULL) {
+            continue;
+        }
         size_t k = 0;
         while (k < count && !hypothesis_same_names(&leaders[k], &c->hypothesis[i])) {
             k++;

@@ -15,10 +15,19 @@ void text_names(const hypothesis_t* hypothesis, char* text, size_t size)
     }
 }
 
+/// What an unknown gap looks like, as the end of a sentence.
+static const char* looks_of(const diagnosis_t* diagnosis)
+{
+    const char* outside = hypothesis_outside(diagnosis->cause[0].hypothesis);
+    return outside != NULL ? outside : "";
+}
+
 void text_verdict(const diagnosis_t* diagnosis, char* text, size_t size)
 {
     if (diagnosis->is_unknown) {
-        (void)snprintf(text, size, "unknown: no named effect explains it");
+        const char* looks = looks_of(diagnosis);
+        (void)snprintf(text, size, "unknown: no named effect explains it%s%s",
+                       looks[0] != '\0' ? "; it looks like " : "", looks);
     } else {
         text_names(diagnosis->cause[0].hypothesis, text, size);
     }
@@ -59,7 +68,9 @@ void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* t
         diagnosis->rmse, output_unit[0] != '\0' ? " " : "", output_unit, 100 * diagnosis->relative);
     const cause_t* cause = &diagnosis->cause[0];
     if (diagnosis->is_unknown) {
-        (void)snprintf(text, size, "%s. It has structure that no effect of the catalogue explains.", gap);
+        const char* looks = looks_of(diagnosis);
+        (void)snprintf(text, size, "%s. It has structure that no effect of the catalogue explains%s%s.", gap,
+                       looks[0] != '\0' ? "; it looks like " : "", looks);
     } else if (cause->hypothesis->num_uses == 0) {
         (void)snprintf(text, size,
                        "%s. It is no more than the noise and the misfit that the model is known to have.",

@@ -137,14 +137,16 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     const double above = above_floor(scale, &c->hypothesis[0]);
     const double left = above > 0 ? above_floor(scale, leader) / above : 0;
     d->structure = structure_left(c->gap, leader);
-    d->is_unknown = above_floor(scale, leader) > known_to * scale->floor &&
-                    (left > 0.4 || (left > 0.15 && d->structure > 0.3));
+    const bool is_outside = hypothesis_outside(leader) != NULL;
+    d->is_unknown = is_outside || (above_floor(scale, leader) > known_to * scale->floor &&
+                                   (left > 0.4 || (left > 0.15 && d->structure > 0.3)));
     d->is_none = leader->num_uses == 0 && !d->is_unknown;
     for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
         if (d->cause[k].probability > 0.2 * d->cause[0].probability && !d->is_unknown) {
             d->indistinguishable[d->num_indistinguishable++] = k;
         }
     }
-    d->confident = d->is_unknown ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
-                                 : d->cause[0].probability >= confident_from && !(left > 0.1 && left < 0.3);
+    d->confident = d->is_unknown && !is_outside
+                       ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
+                       : d->cause[0].probability >= confident_from && !(left > 0.1 && left < 0.3);
 }

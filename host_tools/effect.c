@@ -23,6 +23,8 @@ static const effect_t* const catalogue[] = {
     &effect_wear_amplitude,
     &effect_wear_increment,
     &effect_wear_response,
+    &effect_self_heating_losses,
+    &effect_self_heating_friction,
     &effect_initial_state,
     &effect_output_lag,
     &effect_resonance,

@@ -93,7 +93,9 @@ struct effect {
                      ///< its parameters can be another's as well
     bool superseded; ///< another mechanism of its name explains what it does: for model files, not for
                      ///< searches
-    bool clips;      ///< invert leaves what it cannot reach where apply does not give it back
+    const char* outside; ///< no effect of the contract's catalogue: a search may find it, the verdict is then
+                         ///< "unknown", and this tells what it looks like; NULL: one of the catalogue
+    bool clips;          ///< invert leaves what it cannot reach where apply does not give it back
     const char* no_inverse; ///< why the effect has no inverse, as the end of a sentence; NULL: it has one
 };
 

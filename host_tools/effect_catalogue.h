@@ -23,6 +23,8 @@ extern const effect_t effect_noncongruency_remanence_stiffness;
 extern const effect_t effect_wear_increment;
 extern const effect_t effect_wear_amplitude;
 extern const effect_t effect_wear_response;
+extern const effect_t effect_self_heating_losses;
+extern const effect_t effect_self_heating_friction;
 extern const effect_t effect_initial_state;
 extern const effect_t effect_output_lag;
 extern const effect_t effect_resonance;

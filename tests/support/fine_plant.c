@@ -33,6 +33,7 @@ typedef struct {
     double lag[LAGS];
     double power[POWER_LAGS];
     double place, speed;
+    double before, heat;
     double spline[MOST_UNKNOWNS];
     bool started;
 } plant_t;
@@ -251,6 +252,19 @@ static double power_creep(plant_t* plant, double y)
     return sum;
 }
 
+/// Heat that the motion's losses leave, by small steps.
+static double heated(plant_t* plant, double y, bool squared)
+{
+    const double* p = plant->p;
+    const double rate = plant->started ? fabs(y - plant->before) / plant->dt : 0;
+    plant->heat += plant->dt / p[0] * ((squared ? rate * rate : rate) - plant->heat);
+    plant->before = y;
+    double middle;
+    double half;
+    output_range(plant, &middle, &half);
+    return middle + (y - middle) / exp(p[1] * plant->heat) + p[2] * plant->heat;
+}
+
 static double body(plant_t* plant, double y, double temperature)
 {
     if (!plant->started) {
@@ -269,6 +283,9 @@ static double body(plant_t* plant, double y, double temperature)
     }
     if (by(plant, "wear", "response")) {
         return worn(plant, y);
+    }
+    if (is(plant, "unknown")) {
+        return heated(plant, y, by(plant, "unknown", "self_heating_losses"));
     }
     if (!is(plant, "creep")) {
         return y;

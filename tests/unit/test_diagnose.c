@@ -1,5 +1,6 @@
 #include "classical_model.h"
 #include "diagnose.h"
+#include "diagnose_shrink.h"
 #include "effect_catalogue.h"
 #include "random.h"
 #include <math.h>
@@ -57,12 +58,15 @@ static void make_input(uint64_t seed)
     }
 }
 
-/// The plant's plays between two samples, FINE steps; lag: dz/dt = (y - z) / tau by small Euler steps.
-static void run_plant(double lag, double gain_per_degree)
+/// The plant's plays between two samples, FINE steps; lag: dz/dt = (y - z) / tau by small Euler steps;
+/// heating: the response shrinks by exp(-heating q), 2 s dq/dt = (dy/dt)^2 - q.
+static void run_plant_heated(double lag, double gain_per_degree, double heating)
 {
     random_t random = random_new(77);
     double w[PLAYS];
     double z = 0;
+    double heat = 0;
+    double before = 0;
     for (size_t j = 0; j < PLAYS; j++) {
         w[j] = model.radius[j]; // a descent to 0
     }
@@ -76,10 +80,19 @@ static void run_plant(double lag, double gain_per_degree)
                 w[j] = fmin(fmax(w[j], v - model.radius[j]), v + model.radius[j]);
                 y += model.weight[j] * w[j];
             }
+            const double rate = t > 0 ? (y - before) / (0.01 / FINE) : 0;
+            before = y;
+            heat += 0.01 / FINE / 2 * (rate * rate - heat);
+            y *= exp(-heating * heat);
             z = t == 0 ? y : z + (lag > 0 ? 0.01 / FINE / lag * (y - z) : y - z);
         }
         output[t] = z * (1 + gain_per_degree * (column_value[t] - 20)) + noise * random_normal(&random);
     }
+}
+
+static void run_plant(double lag, double gain_per_degree)
+{
+    run_plant_heated(lag, gain_per_degree, 0);
 }
 
 static void run_diagnosis_on(size_t num_threads)
@@ -216,6 +229,21 @@ static void test_stranger_is_unknown(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 15, diagnosis.region[0].to);
 }
 
+/// Heat that nobody measures is no effect of the catalogue, and no drift either: the verdict says what it
+/// looks like and what to measure, and hands nothing out.
+static void test_self_heating_is_unknown(void)
+{
+    make_input(8);
+    run_plant_heated(0, 0, 2e-5);
+    run_diagnosis();
+    TEST_ASSERT_TRUE(diagnosis.is_unknown);
+    TEST_ASSERT_TRUE(diagnosis.confident);
+    TEST_ASSERT_EQUAL_PTR(&effect_self_heating_losses, diagnosis.cause[0].hypothesis->use[0].effect);
+    TEST_ASSERT_NOT_NULL(strstr(diagnosis.advice, "record the temperature"));
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    TEST_ASSERT_EQUAL(0, diagnosis_handed_out(&diagnosis, uses));
+}
+
 /// A search may end with creep's two time constants in either order; a model file takes only one.
 static void test_fitted_parameters_are_in_their_order(void)
 {
@@ -260,6 +288,7 @@ int main(void)
     RUN_TEST(test_threads_change_nothing);
     RUN_TEST(test_coarse_steps_are_named_beside_a_lag);
     RUN_TEST(test_stranger_is_unknown);
+    RUN_TEST(test_self_heating_is_unknown);
     RUN_TEST(test_fitted_parameters_are_in_their_order);
     RUN_TEST(test_records_without_excitation_are_refused);
     return UNITY_END();

@@ -262,6 +262,7 @@ static void a_mean_field_acts_beside_another_start(void)
     fast_plays_free(fast);
 }
 
+/// Or refuses it where it is no effect of the catalogue.
 static void json_gives_the_use_back(void)
 {
     for (size_t c = 0; c < effect_case_count(); ++c) {
@@ -272,6 +273,13 @@ static void json_gives_the_use_back(void)
         TEST_ASSERT_NULL(effect_fault(model.effects).key);
         effect_use_t* uses;
         size_t num_uses;
+        if (use.effect->outside != NULL) {
+            TEST_ASSERT_EQUAL_INT(OUTCOME_BAD_INPUT,
+                                  effect_uses_of_model(&model, "model.json", &uses, &num_uses));
+            json_decref(model.effects);
+            model.effects = NULL;
+            continue;
+        }
         TEST_ASSERT_EQUAL_INT(OUTCOME_OK, effect_uses_of_model(&model, "model.json", &uses, &num_uses));
         TEST_ASSERT_EQUAL_UINT(1, num_uses);
         TEST_ASSERT_EQUAL_PTR(use.effect, uses[0].effect);

@@ -53,6 +53,8 @@ def run_trial(hyst, folder, work, options=()):
         text, out["diagnose_s"] = call(hyst, "diagnose", model, record, "--json", "--quiet", "--calibration",
                                        calibration, "-o", richer, *options)
         out["diagnose_cpu_s"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        with open(os.path.join(work, "diagnosis.json"), "w", encoding="utf-8") as file:
+            file.write(text)
         out["diagnosis"] = json.loads(text)
         check_diagnosis(out["diagnosis"])
         plain = prediction(hyst, model, test, os.path.join(work, "plain.csv"), options)

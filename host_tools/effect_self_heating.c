@@ -1,0 +1,110 @@
+/// Self-heating: the losses of motion warm the plant, which nobody measures, and its output shrinks and moves
+/// with that. No effect of the catalogue: where it explains a record best, the answer is "unknown" with that
+/// hint, and no model is written with it. A search that lacked it would put its slow course down to a drift.
+///     losses:   tau dq/dt = (dy/dt)^2 - q     dielectric and eddy-current losses
+///     friction: tau dq/dt = |dy/dt| - q       hysteresis losses: so much for each loop
+///     y' = y_m + exp(-gain q) (y - y_m) + offset q, cool when the record starts
+/// y_m: middle of the model's output between its two saturations. tau >= 0 [s], fitted from 20 samples to
+/// half the record: quicker is a lag; gain [1/q], offset [output/q]. Source: losses as in G. Bertotti, IEEE
+/// Trans. Magn. 24 (1988) 621.
+#include "effect_catalogue.h"
+#include "effect_limits.h"
+#include "lag_step.h"
+#include <math.h>
+
+enum { TAU, GAIN, OFFSET };
+
+static const effect_parameter_t losses_parameters[] = {
+    [TAU] = {"tau", "s", AT_LEAST_0},
+    [GAIN] = {"gain", "1/(output/s)^2", ANY_NUMBER},
+    [OFFSET] = {"offset", "output/(output/s)^2", ANY_NUMBER},
+};
+
+static const effect_parameter_t friction_parameters[] = {
+    [TAU] = {"tau", "s", AT_LEAST_0},
+    [GAIN] = {"gain", "1/(output/s)", ANY_NUMBER},
+    [OFFSET] = {"offset", "output/(output/s)", ANY_NUMBER},
+};
+
+/// What the output does in a second on the mean.
+static double mean_rate(const effect_run_t* run)
+{
+    const double rate = limits_output_span(run) * run->travel / (run->input_span * run->duration);
+    return rate > 0.0 ? rate : 1.0;
+}
+
+static void limits_for(const effect_run_t* run, size_t parameter, double heat, effect_limits_t* result)
+{
+    const double few = 20.0 * run->sample_time;
+    const double half = fmax(0.5 * run->duration, 2.0 * few);
+    const double gain = 2.0 / heat;
+    const double offset = limits_output_span(run) / heat;
+    *result = parameter == TAU    ? limits_logarithmic(few, half, few, 0.05 * run->duration,
+                                                       0.15 * run->duration, 0.02 * run->duration)
+              : parameter == GAIN ? limits_linear(-gain, gain, 0.0, 0.01 * gain, 0.01 * gain, -0.01 * gain)
+                                  : limits_linear(-offset, offset, 0.0, 0.0, 0.0, 0.0);
+}
+
+static void losses_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    const double rate = mean_rate(run);
+    limits_for(run, parameter, rate * rate, result);
+}
+
+static void friction_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    limits_for(run, parameter, mean_rate(run), result);
+}
+
+static void warm(const effect_run_t* run, const double* parameter, bool squared, double* series)
+{
+    const double middle = 0.5 * (run->output_min + run->output_max);
+    double heat = 0.0;
+    double before = run->num_samples > 0 ? series[0] : 0.0;
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double step = run->time[i] - run->time[i - 1];
+        const double rate = fabs(series[i] - before) / step;
+        const double power = squared ? rate * rate : rate;
+        heat = lag_next(lag_step(step, parameter[TAU]), heat, power, power);
+        before = series[i];
+        series[i] = middle + exp(-parameter[GAIN] * heat) * (series[i] - middle) + parameter[OFFSET] * heat;
+    }
+}
+
+static void apply_losses(const effect_run_t* run, const double* parameter, const double* column,
+                         double* series)
+{
+    (void)column;
+    warm(run, parameter, true, series);
+}
+
+static void apply_friction(const effect_run_t* run, const double* parameter, const double* column,
+                           double* series)
+{
+    (void)column;
+    warm(run, parameter, false, series);
+}
+
+const effect_t effect_self_heating_losses = {
+    .name = "unknown",
+    .mechanism = "self_heating_losses",
+    .stage = EFFECT_BODY,
+    .outside = "self-heating (it follows the output's rate squared)",
+    .num_parameters = COUNT_OF(losses_parameters),
+    .parameter = losses_parameters,
+    .limits = losses_limits,
+    .apply = apply_losses,
+    .no_inverse = "it is no effect of the catalogue",
+};
+
+const effect_t effect_self_heating_friction = {
+    .name = "unknown",
+    .mechanism = "self_heating_friction",
+    .stage = EFFECT_BODY,
+    .outside = "self-heating (it follows the output's travel)",
+    .num_parameters = COUNT_OF(friction_parameters),
+    .parameter = friction_parameters,
+    .limits = friction_limits,
+    .apply = apply_friction,
+    .no_inverse = "it is no effect of the catalogue",
+};
