@@ -297,8 +297,8 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
     search_free(&s);
 }
 
-/// The best of evenly spread values of a hypothesis's only parameter: thresholds and delays give no gradient
-/// where they do not act.
+/// The best of evenly spread values of an effect's first parameter, the others as they are: thresholds and
+/// delays give no gradient where they do not act.
 static hypothesis_t scan(const hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
 {
     enum { POINTS = 24 };
@@ -330,8 +330,11 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
 {
     hypothesis_t best = *hypothesis;
     best.fit_rmse = HUGE_VAL;
-    if (hypothesis->num_uses == 1 && hypothesis->use[0].effect->num_parameters == 1) {
-        best = scan(hypothesis, gap, max_evaluations);
+    if (hypothesis->num_uses == 1 &&
+        (hypothesis->use[0].effect->has_threshold || hypothesis->use[0].effect->num_parameters == 1)) {
+        hypothesis_t neutral = *hypothesis;
+        hypothesis_set_start(&neutral, gap, -1);
+        best = scan(&neutral, gap, max_evaluations);
     }
     for (int start = guessed ? -1 : 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
         hypothesis_t trial = *hypothesis;

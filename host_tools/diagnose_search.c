@@ -37,23 +37,55 @@ static int evaluations_of(const hypothesis_t* hypothesis)
     return evaluations;
 }
 
-/// Parameters that no gradient leads to: a disturbance's frequency, from the spectrum of what `predicted`
-/// leaves.
-static bool guess_parameters(const candidates_t* c, const double* predicted, effect_use_t* use)
+static void guess_disturbance(const gap_t* gap, const double* predicted, effect_use_t* use)
 {
-    if (strcmp(use->effect->name, "periodic_disturbance") != 0) {
-        return false;
-    }
-    const effect_run_t* run = c->gap->run;
+    const effect_run_t* run = gap->run;
     double* difference = xmalloc(run->num_samples * sizeof *difference);
     for (size_t t = 0; t < run->num_samples; t++) {
-        difference[t] = c->gap->output[t] - predicted[t];
+        difference[t] = gap->output[t] - predicted[t];
     }
     const sinusoid_t peak = strongest_sinusoid(run->time, run->sample_time, difference, run->num_samples);
     free(difference);
     const double guess[EFFECT_MAX_PARAMETERS] = {peak.frequency, peak.sine, peak.cosine};
     memcpy(use->parameter, guess, sizeof guess);
-    return true;
+}
+
+/// By trying: the response to a mode follows the work's own spectrum, so the gap's need not peak there. Modes
+/// a tenth apart, as wide as their damping.
+static void guess_mode(const gap_t* gap, const double* predicted, effect_use_t* use)
+{
+    enum { MODES = 48 };
+    const effect_run_t* run = gap->run;
+    const size_t n = run->num_samples;
+    double* ringing = xmalloc(n * sizeof *ringing);
+    effect_use_t trial = *use;
+    double least = HUGE_VAL;
+    for (size_t k = 0; k < MODES; k++) {
+        const double guess[EFFECT_MAX_PARAMETERS] = {0.45 / run->sample_time * pow(1.1, -(double)k), 0.1};
+        memcpy(trial.parameter, guess, sizeof guess);
+        memcpy(ringing, predicted, n * sizeof *ringing);
+        effect_use_apply(run, &trial, ringing);
+        const double left = series_mean_square(ringing, gap->output, n);
+        if (left < least) {
+            least = left;
+            memcpy(use->parameter, guess, sizeof guess);
+        }
+    }
+    free(ringing);
+}
+
+/// Parameters that no gradient leads to: the frequency of a disturbance, from the spectrum of what
+/// `predicted` leaves, and of a mode.
+static bool guess_parameters(const candidates_t* c, const double* predicted, effect_use_t* use)
+{
+    const bool disturbs = strcmp(use->effect->name, "periodic_disturbance") == 0;
+    const bool rings = strcmp(use->effect->name, "resonance") == 0;
+    if (disturbs) {
+        guess_disturbance(c->gap, predicted, use);
+    } else if (rings) {
+        guess_mode(c->gap, predicted, use);
+    }
+    return disturbs || rings;
 }
 
 static void add_single(candidates_t* c, const effect_t* effect, const char* column)

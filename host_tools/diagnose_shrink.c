@@ -61,6 +61,9 @@ size_t cause_handed_out(const cause_t* cause, effect_use_t* uses)
     for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
         if (!cause->is_kept_back[i]) {
             uses[count] = cause->hypothesis->use[i];
+            if (uses[count].effect->for_another_record != NULL) {
+                uses[count].effect->for_another_record(uses[count].parameter);
+            }
             uses[count].is_of_one_record = cause->is_of_one_record[i] || !uses[count].effect->transferable;
             count++;
         }

@@ -26,6 +26,7 @@ static const effect_t* const catalogue[] = {
     &effect_self_heating_losses,
     &effect_self_heating_friction,
     &effect_initial_state,
+    &effect_initial_state_turning_points,
     &effect_output_lag,
     &effect_resonance,
     &effect_backlash,
@@ -36,6 +37,7 @@ static const effect_t* const catalogue[] = {
     &effect_drift_spline,
     &effect_drift_fine_spline,
     &effect_periodic_disturbance,
+    &effect_periodic_disturbance_run_up,
     &effect_quantization,
     &effect_exogenous,
 };

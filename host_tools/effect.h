@@ -69,11 +69,14 @@ struct effect {
     bool needs_column; ///< exogenous: follows a named auxiliary column
     size_t num_parameters;
     const effect_parameter_t* parameter;
+    bool has_threshold; ///< its first parameter gives no gradient where it does not act: searches try values
     /// What is wrong with parameters that are each physical (tau_fast above tau_slow), or NULL. May be NULL.
     const char* (*fault)(const double* parameter);
     /// Puts parameters that a search left in another order into theirs, without a change of what they do. May
     /// be NULL.
     void (*normalise)(double* parameter);
+    /// Sets what was fitted to this record's own course to what is expected of another. May be NULL.
+    void (*for_another_record)(double* parameter);
     void (*limits)(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
     /// Whether these parameters make it another effect of the catalogue (creep of one time constant is a
     /// lag), so that a fit that ends there says nothing for this one. May be NULL.

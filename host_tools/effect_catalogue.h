@@ -26,6 +26,7 @@ extern const effect_t effect_wear_response;
 extern const effect_t effect_self_heating_losses;
 extern const effect_t effect_self_heating_friction;
 extern const effect_t effect_initial_state;
+extern const effect_t effect_initial_state_turning_points;
 extern const effect_t effect_output_lag;
 extern const effect_t effect_resonance;
 extern const effect_t effect_backlash;
@@ -36,6 +37,7 @@ extern const effect_t effect_drift_linear;
 extern const effect_t effect_drift_spline;
 extern const effect_t effect_drift_fine_spline;
 extern const effect_t effect_periodic_disturbance;
+extern const effect_t effect_periodic_disturbance_run_up;
 extern const effect_t effect_quantization;
 extern const effect_t effect_exogenous;
 

@@ -46,6 +46,7 @@ const effect_t effect_delay = {
     .num_parameters = COUNT_OF(parameters),
     .parameter = parameters,
     .limits = limits,
+    .has_threshold = true,
     .apply = apply,
     .no_inverse = "the response can only come later than the command; ask for the output earlier instead",
 };

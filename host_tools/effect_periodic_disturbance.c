@@ -1,28 +1,42 @@
 /// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
 ///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t)
+///     run_up: the same with f t + shift exp(-t/settling) for f t, and amplitudes 1 + swell exp(-t/settling)
+///     times as large: a machine whose speed and force settle. Its time counts from the record's start, and
+///     holds for this record alone.
 /// h = 1, 2, 3. amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the
 /// record's own time. frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and
-/// half the sample rate; amplitudes [output units]. Lines at the first ten multiples of a periodic input's
-/// frequency are an answer to it.
+/// half the sample rate; amplitudes [output units]; shift [periods], fitted up to 1; swell [1], fitted up to
+/// 1.5; settling > 0 [s], fitted from a fiftieth to half of the record. Lines at the first ten multiples of a
+/// periodic input's frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
-enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS, HARMONICS = 3 };
+enum { FREQUENCY, AMPLITUDE_SIN, AMPLITUDE_COS, SHIFT = 7, SWELL, SETTLING, HARMONICS = 3 };
 /// Of a periodic input: the lines of a loop's corners fall off as 1 / h^2, beyond the tenth less than 1e-4 of
 /// the first's energy is left in any; and the error of the input's frequency counts h times.
 enum { MOST_MULTIPLE = 10 };
 
 static const double two_pi = 6.283185307179586;
 
-static const effect_parameter_t parameters[] = {
-    [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},
-    [AMPLITUDE_SIN] = {"amplitude_sin", "output", ANY_NUMBER},
-    [AMPLITUDE_COS] = {"amplitude_cos", "output", ANY_NUMBER},
-    {"amplitude_sin_2", "output", ANY_NUMBER, .optional = true},
-    {"amplitude_cos_2", "output", ANY_NUMBER, .optional = true},
-    {"amplitude_sin_3", "output", ANY_NUMBER, .optional = true},
-    {"amplitude_cos_3", "output", ANY_NUMBER, .optional = true},
+#define LINES                                                                                                \
+    [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},                                    \
+    [AMPLITUDE_SIN] = {"amplitude_sin", "output", ANY_NUMBER},                                               \
+    [AMPLITUDE_COS] = {"amplitude_cos", "output", ANY_NUMBER},                                               \
+    {"amplitude_sin_2", "output", ANY_NUMBER, .optional = true},                                             \
+    {"amplitude_cos_2", "output", ANY_NUMBER, .optional = true},                                             \
+    {"amplitude_sin_3", "output", ANY_NUMBER, .optional = true},                                             \
+    {                                                                                                        \
+        "amplitude_cos_3", "output", ANY_NUMBER, .optional = true                                            \
+    }
+
+static const effect_parameter_t parameters[] = {LINES};
+
+static const effect_parameter_t run_up_parameters[] = {
+    LINES,
+    [SHIFT] = {"shift", "1", ANY_NUMBER},
+    [SWELL] = {"swell", "1", ANY_NUMBER},
+    [SETTLING] = {"settling", "s", .least = DBL_MIN, .most = DBL_MAX},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -39,11 +53,33 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
     *result = limits_logarithmic(low, high, middle, middle, sqrt(low * middle), sqrt(middle * high));
 }
 
-static void add(const effect_run_t* run, const double* parameter, double sign, double* series)
+static void run_up_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
+{
+    if (parameter < SHIFT) {
+        limits(run, parameter, result);
+    } else if (parameter == SETTLING) {
+        *result = limits_logarithmic(0.02 * run->duration, 0.5 * run->duration, 0.02 * run->duration,
+                                     0.1 * run->duration, 0.1 * run->duration, 0.1 * run->duration);
+    } else {
+        const double most = parameter == SHIFT ? 1.0 : 1.5;
+        *result = limits_linear(-most, most, 0.0, 0.0, 0.2 * most, -0.2 * most);
+    }
+}
+
+/// What is left of the start after t.
+static double unsettled(const double* parameter, double t)
+{
+    return exp(-t / parameter[SETTLING]);
+}
+
+static void add(const effect_run_t* run, const double* parameter, bool runs_up, double sign, double* series)
 {
     for (size_t i = 0; i < run->num_samples; ++i) {
         // Whole periods off first, in the period's own unit: a late record keeps its phase.
-        const double periods = parameter[FREQUENCY] * run->time[i];
+        const double start = runs_up ? unsettled(parameter, run->time[i] - run->time[0]) : 0.0;
+        const double swollen = sign * (runs_up ? 1.0 + parameter[SWELL] * start : 1.0);
+        const double periods =
+            parameter[FREQUENCY] * run->time[i] + (runs_up ? parameter[SHIFT] * start : 0.0);
         const double angle = two_pi * (periods - floor(periods));
         const double first[] = {sin(angle), cos(angle)};
         double line[] = {0.0, 1.0};
@@ -52,7 +88,7 @@ static void add(const effect_run_t* run, const double* parameter, double sign, d
             const double turned = line[0] * first[1] + line[1] * first[0];
             line[1] = line[1] * first[1] - line[0] * first[0];
             line[0] = turned;
-            series[i] += sign * (amplitude[0] * line[0] + amplitude[1] * line[1]);
+            series[i] += swollen * (amplitude[0] * line[0] + amplitude[1] * line[1]);
         }
     }
 }
@@ -60,13 +96,34 @@ static void add(const effect_run_t* run, const double* parameter, double sign, d
 static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     (void)column;
-    add(run, parameter, 1.0, series);
+    add(run, parameter, false, 1.0, series);
 }
 
 static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     (void)column;
-    add(run, parameter, -1.0, series);
+    add(run, parameter, false, -1.0, series);
+}
+
+static void apply_run_up(const effect_run_t* run, const double* parameter, const double* column,
+                         double* series)
+{
+    (void)column;
+    add(run, parameter, true, 1.0, series);
+}
+
+static void invert_run_up(const effect_run_t* run, const double* parameter, const double* column,
+                          double* series)
+{
+    (void)column;
+    add(run, parameter, true, -1.0, series);
+}
+
+/// Another record starts when the machine has settled, or at another time.
+static void settle(double* parameter)
+{
+    parameter[SHIFT] = 0.0;
+    parameter[SWELL] = 0.0;
 }
 
 /// Whether the record cannot tell the frequency from one of the first multiples of the input's: an answer to
@@ -102,4 +159,19 @@ const effect_t effect_periodic_disturbance = {
     .invert = invert,
     .follows_input = follows_input,
     .covers = 0.5, // on periodic work its harmonics follow what the body itself does beside the model
+};
+
+const effect_t effect_periodic_disturbance_run_up = {
+    .name = "periodic_disturbance",
+    .mechanism = "run_up",
+    .stage = EFFECT_SENSOR,
+    .transferable = true,
+    .num_parameters = COUNT_OF(run_up_parameters),
+    .parameter = run_up_parameters,
+    .limits = run_up_limits,
+    .for_another_record = settle,
+    .apply = apply_run_up,
+    .invert = invert_run_up,
+    .follows_input = follows_input,
+    .covers = 0.5,
 };

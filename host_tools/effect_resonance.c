@@ -1,27 +1,34 @@
 /// resonance: second-order, lightly damped mode behind the hysteresis (the stage on the actuator).
-///     y'' + 2 damping w y' + w^2 y = w^2 x,  w = 2 pi frequency, at rest at the first value before the
-///     record
+///     m'' + 2 damping w m' + w^2 m = w^2 x,  w = 2 pi frequency, at rest at the first value before the
+///     record; y = (1 - direct) m + direct x
 /// Exact for a course that is linear between the samples, stable for any step. frequency > 0 [Hz], damping 0
-/// ... 0.999 [1]. At high frequency it does nothing. Inverse: x = y + 2 damping/w y' + y''/w^2.
+/// ... 0.999 [1]. At high frequency it does nothing. direct 0 ... 0.5 [1], 0 when left out: what the higher
+/// modes carry, quick enough to follow at once (residual flexibility, D. J. Ewins, Modal Testing, ch. 2).
+/// Inverse: x = y + (1 - direct) (2 damping/w y' + y''/w^2), corrected until it is exact.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
 #include <math.h>
 #include <stdlib.h>
 
-enum { FREQUENCY, DAMPING };
+enum { FREQUENCY, DAMPING, DIRECT };
 
 static const double two_pi = 6.283185307179586;
 
 static const effect_parameter_t parameters[] = {
     [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},
     [DAMPING] = {"damping", "1", .least = 0.0, .most = 0.999},
+    [DIRECT] = {"direct", "1", .least = 0.0, .most = 0.5, .optional = true},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     if (parameter == DAMPING) {
         *result = limits_logarithmic(1e-3, 0.999, 0.7, 0.05, 0.2, 0.01);
+        return;
+    }
+    if (parameter == DIRECT) {
+        *result = limits_linear(0.0, 0.3, 0.0, 0.05, 0.1, 0.02);
         return;
     }
     const double high = 5.0 / run->sample_time;
@@ -58,7 +65,7 @@ static void apply_series(const effect_run_t* run, const double* parameter, doubl
         const rotation_t turn = rotation(w, damping, step);
         place = to - 2.0 * damping * slope + turn.cosine * e + turn.sine * (damping * e + f);
         speed = slope + turn.cosine * f - turn.sine * (e + damping * f);
-        series[i] = place;
+        series[i] = place + parameter[DIRECT] * (to - place);
         from = to;
     }
 }
@@ -71,7 +78,8 @@ static void lead_series(const effect_run_t* run, const double* parameter, double
     double* curvature = xmalloc(size);
     series_derivatives(run, series, slope, curvature);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        series[i] += 2.0 * parameter[DAMPING] / w * slope[i] + curvature[i] / (w * w);
+        series[i] +=
+            (1.0 - parameter[DIRECT]) * (2.0 * parameter[DAMPING] / w * slope[i] + curvature[i] / (w * w));
     }
     free(slope);
     free(curvature);

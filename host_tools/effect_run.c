@@ -221,12 +221,30 @@ static double* seen_of(const effect_run_t* run, const model_t* model, const hyst
     return seen;
 }
 
+/// The plays' sums over what they see, after the turns of their past.
+static void run_fast_plays(const effect_run_t* run, const hysteresis_t* hysteresis, const double* seen,
+                           double* sum)
+{
+    const size_t before = hysteresis->num_turns;
+    if (before == 0) {
+        fast_plays_run(run->fast, seen, run->num_samples, sum);
+        return;
+    }
+    const size_t count = before + run->num_samples;
+    double* course = xmalloc(2 * count * sizeof(double));
+    memcpy(course, hysteresis->turn, before * sizeof(double));
+    memcpy(course + before, seen, run->num_samples * sizeof(double));
+    fast_plays_run(run->fast, course, count, course + count);
+    memcpy(sum, course + count + before, run->num_samples * sizeof(double));
+    free(course);
+}
+
 static void run_fast(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
                      const double* drive, double* output)
 {
     double* sum = xmalloc(run->num_samples * sizeof(double));
     double* seen = seen_of(run, model, hysteresis, drive, output);
-    fast_plays_run(run->fast, seen, run->num_samples, sum);
+    run_fast_plays(run, hysteresis, seen, sum);
     for (size_t i = 0; i < run->num_samples; ++i) {
         output[i] += nonhysteretic_at(run, model, seen[i]);
     }
@@ -276,11 +294,11 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     double* body = xmalloc(run->num_samples * sizeof(double));
     run_plays(run, model, start, &neutral, drive, plain);
     double shift = 0;
-    if (hysteresis->start_fraction != NULL) {
+    if (hysteresis_has_past(hysteresis)) {
         hysteresis_state_t first = hysteresis_start(model, start, hysteresis, drive[0]);
         shift = hysteresis_output(&first) - plain[0];
         hysteresis_state_free(&first);
-        hysteresis->start_fraction = NULL;
+        hysteresis_forget_past(hysteresis);
     }
     run_plays(run, model, start, hysteresis, drive, output);
     run_body_alone(run, model, start, hysteresis, shift, drive, body);

@@ -4,9 +4,9 @@
 ///     losses:   tau dq/dt = (dy/dt)^2 - q     dielectric and eddy-current losses
 ///     friction: tau dq/dt = |dy/dt| - q       hysteresis losses: so much for each loop
 ///     y' = y_m + exp(-gain q) (y - y_m) + offset q, cool when the record starts
-/// y_m: middle of the model's output between its two saturations. tau >= 0 [s], fitted from 20 samples to
-/// half the record: quicker is a lag; gain [1/q], offset [output/q]. Source: losses as in G. Bertotti, IEEE
-/// Trans. Magn. 24 (1988) 621.
+/// y_m: middle of the model's output between its two saturations. tau >= 0 [s], fitted from a fiftieth to a
+/// quarter of the record: quicker cannot be told from a lag, slower from wear or a drift; gain [1/q], offset
+/// [output/q]. Source: losses as in G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include "lag_step.h"
@@ -35,11 +35,11 @@ static double mean_rate(const effect_run_t* run)
 
 static void limits_for(const effect_run_t* run, size_t parameter, double heat, effect_limits_t* result)
 {
-    const double few = 20.0 * run->sample_time;
-    const double half = fmax(0.5 * run->duration, 2.0 * few);
+    const double quick = fmax(20.0 * run->sample_time, 0.02 * run->duration);
+    const double slow = fmax(0.25 * run->duration, 2.0 * quick);
     const double gain = 2.0 / heat;
     const double offset = limits_output_span(run) / heat;
-    *result = parameter == TAU    ? limits_logarithmic(few, half, few, 0.05 * run->duration,
+    *result = parameter == TAU    ? limits_logarithmic(quick, slow, quick, 0.05 * run->duration,
                                                        0.15 * run->duration, 0.02 * run->duration)
               : parameter == GAIN ? limits_linear(-gain, gain, 0.0, 0.01 * gain, 0.01 * gain, -0.01 * gain)
                                   : limits_linear(-offset, offset, 0.0, 0.0, 0.0, 0.0);
@@ -95,6 +95,7 @@ const effect_t effect_self_heating_losses = {
     .limits = losses_limits,
     .apply = apply_losses,
     .no_inverse = "it is no effect of the catalogue",
+    .covers = 1.0, // what is in the catalogue comes first
 };
 
 const effect_t effect_self_heating_friction = {
@@ -107,4 +108,5 @@ const effect_t effect_self_heating_friction = {
     .limits = friction_limits,
     .apply = apply_friction,
     .no_inverse = "it is no effect of the catalogue",
+    .covers = 1.0, // what is in the catalogue comes first
 };

@@ -1,23 +1,33 @@
 /// wear: the response fades (or, rate < 0, grows) with accumulated cycles: depolarisation, abrasion, fatigue.
 ///     amplitude:  S' = S_m + exp(-rate * spans) (S - S_m)
 ///     increment:  dS' = exp(-rate * spans) dS: what lies behind stays, only what follows is smaller
-///     response:   y' = y_p + exp(-rate * spans) (y - y_p), y_p = y_m + pivot * half
-/// response scales all of it, about a point of rest.
+///     response:   y' = y_p + exp(-rate * damage) (y - y_p), y_p = y_m + pivot * half,
+///                 damage = (1 - exp(-settling * s)) / settling, s the spans, each move counted
+///                 (its speed / speed)^speed_power times
+/// response scales all of it, about a point of rest; what runs in settles, and fast or long strokes may wear
+/// more than their length.
 /// spans: the input's travel since the record's start over the width of the model's input range; S, S_m as
 /// for noncongruency; y_m, half: middle and half of the model's output between its two saturations. pivot
 /// [1], fitted to at most a quarter of their distance beyond them: fading about a point further away is a
-/// drift. rate [1 per span of travel], fitted to a factor of e^2 either way over the record.
+/// drift. rate [1 per span of travel], fitted to a factor of e^2 either way over the record. settling >= 0 [1
+/// per span], fitted to three lives a record; speed_power [1], fitted from 0 to 1.2, with speed [input/s] the
+/// record's own mean: at the mean it counts as travel does. Those are 0 when left out: damage is the spans.
+/// Source of damage by powers of a stroke: J. Lemaitre, R. Desmorat, Engineering Damage Mechanics (2005),
+/// ch. 6.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
-enum { RATE, PIVOT };
+enum { RATE, PIVOT, SETTLING, SPEED_POWER, SPEED };
 
 static const effect_parameter_t parameters[] = {{"rate", "1/span", ANY_NUMBER}};
 
 static const effect_parameter_t response_parameters[] = {
     [RATE] = {"rate", "1/span", ANY_NUMBER},
     [PIVOT] = {"pivot", "1", ANY_NUMBER, .optional = true},
+    [SETTLING] = {"settling", "1/span", AT_LEAST_0, .optional = true},
+    [SPEED_POWER] = {"speed_power", "1", .least = 0.0, .most = 4.0, .optional = true},
+    [SPEED] = {"speed", "input/s", AT_LEAST_0, .optional = true},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -27,24 +37,60 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
     *result = limits_linear(-2.0 * one, 2.0 * one, 0.0, 0.1 * one, -0.1 * one, 0.7 * one);
 }
 
+static double mean_speed(const effect_run_t* run)
+{
+    return run->travel > 0.0 ? run->travel / run->duration : 1.0;
+}
+
 static void response_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
-    if (parameter == RATE) {
-        limits(run, parameter, result);
-    } else {
+    const double one = run->travel > 0.0 ? run->input_span / run->travel : 1.0;
+    const double speed = mean_speed(run);
+    switch (parameter) {
+    case PIVOT:
         *result = limits_linear(-1.5, 1.5, 0.0, -0.5, 0.5, -1.0);
+        break;
+    case SETTLING:
+        *result = limits_linear(0.0, 3.0 * one, 0.0, 0.1 * one, 1.5 * one, 0.1 * one);
+        break;
+    case SPEED_POWER:
+        *result = limits_linear(0.0, 1.2, 0.0, 0.1, 0.1, 0.8);
+        break;
+    case SPEED: // a unit for what speed_power counts, not a number to find
+        *result = limits_linear(0.999 * speed, 1.001 * speed, speed, speed, speed, speed);
+        break;
+    default:
+        limits(run, parameter, result);
     }
 }
 
-/// Scales the series about the pivot by exp(sign * rate * spans).
+/// Spans that a move counts as.
+static double spans_of(const effect_run_t* run, const double* parameter, size_t i)
+{
+    const double move = fabs(run->input[i] - run->input[i - 1]);
+    const bool counts_speed = parameter[SPEED_POWER] > 0.0 && parameter[SPEED] > 0.0 && move > 0.0;
+    const double speed = move / (run->time[i] - run->time[i - 1]);
+    const double weight = counts_speed ? pow(speed / parameter[SPEED], parameter[SPEED_POWER]) : 1.0;
+    return weight * move / run->input_span;
+}
+
+/// (1 - exp(-settling * spans)) / settling
+static double damage_of(double settling, double spans)
+{
+    const double settled = settling * spans;
+    return settled > 0.0 ? spans * (-expm1(-settled) / settled) : spans;
+}
+
+/// Scales the series about the pivot by exp(sign * rate * damage).
 static void scale_response(const effect_run_t* run, const double* parameter, double sign, double* series)
 {
     const double middle = 0.5 * (run->output_min + run->output_max);
     const double pivot = middle + parameter[PIVOT] * 0.5 * (run->output_max - run->output_min);
     double spans = 0.0;
     for (size_t i = 0; i < run->num_samples; ++i) {
-        spans += i > 0 ? fabs(run->input[i] - run->input[i - 1]) / run->input_span : 0.0;
-        series[i] = pivot + exp(sign * parameter[RATE] * spans) * (series[i] - pivot);
+        spans += i > 0 ? spans_of(run, parameter, i) : 0.0;
+        const double damage = damage_of(parameter[SETTLING], spans);
+        series[i] = pivot + exp(sign * parameter[RATE] * damage) * (series[i] - pivot);
     }
 }
 

@@ -20,13 +20,25 @@ static bool differs(double value)
     return fabs(value) > 0.0;
 }
 
+bool hysteresis_has_past(const hysteresis_t* hysteresis)
+{
+    return hysteresis->start_fraction != NULL || hysteresis->turn != NULL;
+}
+
+void hysteresis_forget_past(hysteresis_t* hysteresis)
+{
+    hysteresis->start_fraction = NULL;
+    hysteresis->turn = NULL;
+    hysteresis->num_turns = 0;
+}
+
 bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
 {
     return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) &&
            !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
            !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
            !differs(hysteresis->remanence_field) && !differs(hysteresis->remanence_stiffness) &&
-           hysteresis->width == NULL && hysteresis->start_fraction == NULL;
+           hysteresis->width == NULL && !hysteresis_has_past(hysteresis);
 }
 
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
@@ -322,10 +334,23 @@ static void place_plays(const hysteresis_state_t* state)
     }
 }
 
+/// The plays at the first sample, after the start's past and the turns since.
+static reference_t past_of(const model_t* model, start_t start, const hysteresis_t* hysteresis,
+                           double first_input)
+{
+    reference_t reference =
+        reference_new(model, start, hysteresis->num_turns > 0 ? hysteresis->turn[0] : first_input);
+    for (size_t k = 1; k < hysteresis->num_turns; ++k) {
+        (void)reference_step(&reference, hysteresis->turn[k]);
+    }
+    (void)reference_step(&reference, first_input);
+    return reference;
+}
+
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
                                     double first_input)
 {
-    reference_t reference = reference_new(model, start, first_input);
+    reference_t reference = past_of(model, start, hysteresis, first_input);
     hysteresis_state_t state = {.model = model,
                                 .hysteresis = hysteresis,
                                 .input = first_input,

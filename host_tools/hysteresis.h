@@ -29,15 +29,22 @@ typedef struct {
         start_fraction; ///< [num_nodes] initial_state: where a play begins, node by node over the radii,
                         ///< between its strip's bottom (-1), the run's own start (0) and its top (1); or NULL
     size_t num_nodes;
+    const double* turn; ///< [num_turns] initial_state: the inputs at which the past turned, between the run's
+                        ///< own start and its first sample; or NULL
+    size_t num_turns;
 } hysteresis_t;
 
 hysteresis_t hysteresis_neutral(void);
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
+/// Whether the memory at the first sample is another than the run's own start leaves.
+bool hysteresis_has_past(const hysteresis_t* hysteresis);
+/// That start again.
+void hysteresis_forget_past(hysteresis_t* hysteresis);
 /// Whether nothing differs but what the plays see (field, shift).
 bool hysteresis_sees_alone(const hysteresis_t* hysteresis);
 void hysteresis_free(hysteresis_t* hysteresis);
 /// Whether the plays themselves run as in the plain model, only on another input and with
-/// another use of their sum.
+/// another use of their sum, once the past has turned where it did.
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
 /// What remanence_stiffness makes of an output y at v.
 double hysteresis_stiffened(const hysteresis_t* hysteresis, double v, double y);

@@ -39,6 +39,7 @@ static const effect_case_t cases[] = {
     {"unknown", "self_heating_losses", {1.5, 0.004, 0.01}, 3.0},
     {"unknown", "self_heating_friction", {1.5, 0.02, 0.05}, 3.0},
     {"initial_state", NULL, {0.4, 0.5, 0.6, 0.7, 0.6, 0.5}, 1.0},
+    {"initial_state", "turning_points", {1.5, -1.2, 1.0, -0.5}, 1.0},
     {"output_lag", NULL, {0.12}, 1.0},
     {"resonance", NULL, {1.5, 0.1}, 6.4},
     {"backlash", NULL, {0.2}, 0.0},

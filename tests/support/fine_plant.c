@@ -139,6 +139,24 @@ static double above_middle(const plant_t* plant, double v, double output)
     return output - middle;
 }
 
+/// The input goes to the turns one after the other, in small steps.
+static double after_turns(const plant_t* plant, double r, double w, double v)
+{
+    enum { TURNS = 4, PARTS = 100 };
+    const model_t* model = plant->model;
+    double from = model->input_min;
+    for (int k = 0; k <= TURNS; ++k) {
+        const double to = k < TURNS ? plant->p[k] : v;
+        for (int i = 1; i <= PARTS; ++i) {
+            const double u = from + (to - from) * i / PARTS;
+            w = clamp(w, tanh(model->ascending.slope * u + model->ascending.shift) - r,
+                      tanh(model->descending.slope * u + model->descending.shift) + r);
+        }
+        from = to;
+    }
+    return w;
+}
+
 static void start_plays(plant_t* plant, double v)
 {
     const model_t* model = plant->model;
@@ -149,7 +167,9 @@ static void start_plays(plant_t* plant, double v)
         const double low = tanh(model->ascending.slope * v + model->ascending.shift) - r;
         const double high = tanh(model->descending.slope * v + model->descending.shift) + r;
         plant->w[j] = fmax(bottom + r, low);
-        if (is(plant, "initial_state")) {
+        if (by(plant, "initial_state", "turning_points")) {
+            plant->w[j] = after_turns(plant, r, bottom + r, v);
+        } else if (is(plant, "initial_state")) {
             const double place =
                 (r - model->radius[0]) / (model->radius[PLAYS - 1] - model->radius[0]) * (STATES - 1);
             const size_t node = place < STATES - 1 ? (size_t)place : STATES - 2;
