@@ -130,18 +130,61 @@ typedef struct {
     free_t free[MAX_THETA];
     int held_out;
     const nuisance_filter_t* filter;
-    double* amount;    ///< [filter's directions] of the nuisance, found with the last residual
-    bool rest_only;    ///< no effect before the body: the plays need to run only once
-    double* plays;     ///< [num_samples] output of drive side and hysteresis, when rest_only
+    double* amount;                ///< [filter's directions] of the nuisance, found with the last residual
+    double* plays;                 ///< [num_samples] output of drive side and hysteresis with `before_body`
+    double before_body[MAX_THETA]; ///< the parameters that it depends on, at the last step's end
     double* simulated; ///< [num_samples]
 } search_t;
 
+static bool acts_before_body(const effect_t* effect)
+{
+    return effect->stage == EFFECT_DRIVE || effect->configure != NULL;
+}
+
+bool hypothesis_is_behind_plays(const hypothesis_t* hypothesis)
+{
+    bool behind = true;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        behind = behind && !acts_before_body(hypothesis->use[i].effect);
+    }
+    return behind;
+}
+
+/// The parameters of all effects up to the plays.
+static size_t list_before_body(const hypothesis_t* hypothesis, double* parameter)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        const effect_use_t* use = &hypothesis->use[i];
+        for (size_t p = 0; acts_before_body(use->effect) && p < use->effect->num_parameters; p++) {
+            parameter[count++] = use->parameter[p];
+        }
+    }
+    return count;
+}
+
+/// Runs the plays for the present parameters, and keeps that: differences in what acts behind them need no
+/// run of their own.
+static void run_plays(search_t* s)
+{
+    const gap_t* gap = s->gap;
+    (void)list_before_body(s->hypothesis, s->before_body);
+    effect_simulate_hysteresis(gap->run, gap->model, gap->start, s->hypothesis->use, s->hypothesis->num_uses,
+                               s->plays);
+}
+
+static bool plays_are_kept(const search_t* s)
+{
+    double now[MAX_THETA];
+    const size_t count = list_before_body(s->hypothesis, now);
+    return memcmp(now, s->before_body, count * sizeof *now) == 0;
+}
+
 static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_out)
 {
-    search_t s = {.gap = gap, .hypothesis = hypothesis, .held_out = held_out, .rest_only = true};
+    search_t s = {.gap = gap, .hypothesis = hypothesis, .held_out = held_out};
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
         effect_use_t* use = &hypothesis->use[i];
-        s.rest_only = s.rest_only && use->effect->stage != EFFECT_DRIVE && use->effect->configure == NULL;
         for (size_t p = 0; p < use->effect->num_parameters; p++) {
             free_t* f = &s.free[s.num_free++];
             f->value = &use->parameter[p];
@@ -153,7 +196,7 @@ static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_
     s.amount = xcalloc(s.filter->nuisance->count + 1, sizeof *s.amount);
     s.simulated = xmalloc(gap->run->num_samples * sizeof *s.simulated);
     s.plays = xmalloc(gap->run->num_samples * sizeof *s.plays);
-    effect_simulate_hysteresis(gap->run, gap->model, gap->start, NULL, 0, s.plays);
+    run_plays(&s);
     return s;
 }
 
@@ -164,14 +207,19 @@ static void search_free(search_t* s)
     free(s->plays);
 }
 
-static void simulate(search_t* s)
+static void simulate(search_t* s, bool is_step)
 {
     const hypothesis_t* h = s->hypothesis;
-    if (s->rest_only) {
-        memcpy(s->simulated, s->plays, s->gap->run->num_samples * sizeof *s->plays);
-        effect_simulate_rest(s->gap->run, h->use, h->num_uses, s->simulated);
+    const gap_t* gap = s->gap;
+    const bool kept = plays_are_kept(s);
+    if (!kept && is_step) {
+        run_plays(s);
+    }
+    if (kept || is_step) {
+        memcpy(s->simulated, s->plays, gap->run->num_samples * sizeof *s->plays);
+        effect_simulate_rest(gap->run, h->use, h->num_uses, s->simulated);
     } else {
-        effect_simulate(s->gap->run, s->gap->model, s->gap->start, h->use, h->num_uses, s->simulated);
+        effect_simulate(gap->run, gap->model, gap->start, h->use, h->num_uses, s->simulated);
     }
 }
 
@@ -196,11 +244,14 @@ static void keep_fitted(const search_t* s, double* residual)
     }
 }
 
+/// What lmdif evaluates for: a step (1), or a difference for its derivatives.
+enum { STEP = 1 };
+
 /// Errors at all samples, but for what the nuisance explains of the fitted ones; then the price of that.
-static void residual_of(search_t* s, double* residual)
+static void residual_of(search_t* s, bool is_step, double* residual)
 {
     const size_t n = s->gap->run->num_samples;
-    simulate(s);
+    simulate(s, is_step);
     for (size_t t = 0; t < n; t++) {
         const double error = s->simulated[t] - s->gap->output[t];
         residual[t] = error - fmin(fmax(error, -s->gap->dead_zone), s->gap->dead_zone);
@@ -222,12 +273,11 @@ static void residual_of(search_t* s, double* residual)
 static int minpack_residual(void* context, int m, int n, const double* theta, double* residual, int task)
 {
     (void)m;
-    (void)task;
     search_t* s = context;
     for (int i = 0; i < n; i++) {
         *s->free[i].value = bounded_from_free(s->free[i].bounds, theta[i]);
     }
-    residual_of(s, residual);
+    residual_of(s, task == STEP, residual);
     keep_fitted(s, residual);
     return 0;
 }
@@ -285,7 +335,7 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
         effect_use_normalise(&hypothesis->use[i]);
     }
-    residual_of(&s, residual);
+    residual_of(&s, true, residual);
     keep_fitted(&s, residual);
     double sum = 0;
     for (size_t t = 0; t < m; t++) {
@@ -311,7 +361,7 @@ static hypothesis_t scan(const hypothesis_t* hypothesis, const gap_t* gap, int m
         const double part = 2 * ((double)k + 0.5) / POINTS - 1;
         const double theta = asin(part);
         double sum = 0;
-        (void)minpack_residual(&s, 0, 1, &theta, residual, 0);
+        (void)minpack_residual(&s, 0, 1, &theta, residual, STEP);
         for (size_t t = 0; t < num_residuals(&s); t++) {
             sum += residual[t] * residual[t];
         }
@@ -355,7 +405,7 @@ void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
     search_t s = search_new(hypothesis, gap, -1);
     hypothesis->predicted =
         xrealloc(hypothesis->predicted, num_residuals(&s) * sizeof *hypothesis->predicted);
-    residual_of(&s, hypothesis->predicted);
+    residual_of(&s, true, hypothesis->predicted);
     for (size_t t = 0; t < gap->run->num_samples; t++) {
         hypothesis->predicted[t] += gap->output[t];
     }
@@ -374,7 +424,7 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
         hypothesis_t trial = *hypothesis;
         hypothesis_fit(&trial, gap, fold, 30);
         search_t s = search_new(&trial, gap, fold);
-        residual_of(&s, residual);
+        residual_of(&s, true, residual);
         size_t t = 0;
         for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
             double error = 0;

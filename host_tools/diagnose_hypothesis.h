@@ -46,6 +46,8 @@ hypothesis_t hypothesis_of(const effect_use_t* uses, size_t num_uses);
 void hypothesis_free(hypothesis_t* hypothesis);
 /// Whether one of its effects is the use's by name and column.
 bool hypothesis_names_use(const hypothesis_t* hypothesis, const effect_use_t* use);
+/// Whether all its effects act on what the plays give, so that a fit runs them once.
+bool hypothesis_is_behind_plays(const hypothesis_t* hypothesis);
 /// What an effect of it that is not of the catalogue looks like: what that explains is unknown. NULL: there
 /// is none.
 const char* hypothesis_outside(const hypothesis_t* hypothesis);

@@ -136,6 +136,12 @@ static int by_mean_square(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
+/// Where the plays run once for all, a fit may take longer.
+static int brief_evaluations(const hypothesis_t* hypothesis)
+{
+    return hypothesis_is_behind_plays(hypothesis) ? 3 * BRIEF_EVALUATIONS : BRIEF_EVALUATIONS;
+}
+
 /// The best mechanism of each name of the catalogue, best first: leaders[] of the hypotheses with one effect;
 /// returns how many.
 static size_t leading_singles(const candidates_t* c, hypothesis_t* leaders)
@@ -185,20 +191,73 @@ static hypothesis_t joined(const hypothesis_t* base, const hypothesis_t* further
     return hypothesis_of(uses, base->num_uses + 1);
 }
 
-/// Briefly: from what each was alone, and with the further effect from its start, since beside the others it
-/// may be another size than alone.
+/// Of what the base leaves, the energy that goes along what the trial changes of the base's output.
+static double promise_of(const gap_t* gap, const hypothesis_t* base, const double* base_output,
+                         const hypothesis_t* trial, double* output)
+{
+    effect_simulate(gap->run, gap->model, gap->start, trial->use, trial->num_uses, output);
+    double along = 0;
+    double square = 0;
+    for (size_t t = 0; t < gap->run->num_samples; t++) {
+        const double change = gap_is_judged(gap, t) ? output[t] - base_output[t] : 0;
+        along += change * (gap->output[t] - base->predicted[t]);
+        square += change * change;
+    }
+    return square > 0 ? along * fabs(along) / square : 0;
+}
+
+static hypothesis_t from_start(const candidates_t* c, const hypothesis_t* base, const hypothesis_t* further,
+                               int start)
+{
+    hypothesis_t joint = joined(base, further);
+    hypothesis_set_start(&joint, c->gap, start);
+    memcpy(joint.use, base->use, base->num_uses * sizeof *joint.use);
+    return joint;
+}
+
+/// The base and the further effect by the mechanism and from the start that promise most.
+static hypothesis_t most_promising(const candidates_t* c, const extension_t* e)
+{
+    const gap_t* gap = c->gap;
+    const size_t n = gap->run->num_samples;
+    double* base_output = xmalloc(2 * n * sizeof *base_output);
+    effect_simulate(gap->run, gap->model, gap->start, e->base->use, e->base->num_uses, base_output);
+    hypothesis_t best = joined(e->base, e->further);
+    double most = -HUGE_VAL;
+    for (size_t i = 1; i <= c->num_singles; i++) {
+        const bool is_named = hypothesis_names_use(&c->hypothesis[i], &e->further->use[0]);
+        for (int start = 0; is_named && start < 3; start++) {
+            const hypothesis_t trial = from_start(c, e->base, &c->hypothesis[i], start);
+            const double promise = promise_of(gap, e->base, base_output, &trial, base_output + n);
+            best = promise > most ? trial : best;
+            most = fmax(most, promise);
+        }
+    }
+    free(base_output);
+    return best;
+}
+
+static void fit_briefly(const candidates_t* c, hypothesis_t* trial, hypothesis_t* best)
+{
+    hypothesis_fit(trial, c->gap, -1, brief_evaluations(trial));
+    *best = by_mean_square(trial, best) < 0 ? *trial : *best;
+}
+
+/// Briefly: from what each was alone, and from starts, since beside the others the further effect may be of
+/// another size or mechanism than alone.
 static void try_extension(void* context, size_t index)
 {
     const candidates_t* c = ((const extensions_t*)context)->c;
     extension_t* e = &((const extensions_t*)context)->extension[index];
     e->fitted = joined(e->base, e->further);
-    hypothesis_fit(&e->fitted, c->gap, -1, BRIEF_EVALUATIONS);
-    hypothesis_t from_start = joined(e->base, e->further);
-    hypothesis_set_start(&from_start, c->gap, 0);
-    memcpy(from_start.use, e->base->use, e->base->num_uses * sizeof *from_start.use);
-    (void)guess_parameters(c, e->base->predicted, &from_start.use[e->base->num_uses]);
-    hypothesis_fit(&from_start, c->gap, -1, BRIEF_EVALUATIONS);
-    e->fitted = by_mean_square(&from_start, &e->fitted) < 0 ? from_start : e->fitted;
+    hypothesis_fit(&e->fitted, c->gap, -1, brief_evaluations(&e->fitted));
+    hypothesis_t first = from_start(c, e->base, e->further, 0);
+    (void)guess_parameters(c, e->base->predicted, &first.use[e->base->num_uses]);
+    fit_briefly(c, &first, &e->fitted);
+    hypothesis_t promising = most_promising(c, e);
+    if (promising.use[e->base->num_uses].effect != first.use[e->base->num_uses].effect) {
+        fit_briefly(c, &promising, &e->fitted);
+    }
 }
 
 /// Which mechanism of a name fits best beside another effect need not be the one that did alone.
@@ -209,7 +268,7 @@ static void try_other_mechanisms(const candidates_t* c, const extension_t* e, hy
         if (other->use[0].effect != e->further->use[0].effect &&
             hypothesis_names_use(other, &e->further->use[0])) {
             hypothesis_t trial = joined(e->base, other);
-            hypothesis_fit(&trial, c->gap, -1, BRIEF_EVALUATIONS);
+            hypothesis_fit(&trial, c->gap, -1, brief_evaluations(&trial));
             *best = trial.fit_rmse < best->fit_rmse ? trial : *best;
         }
     }

@@ -91,6 +91,8 @@ static int by_probability(const void* a, const void* b)
 /// From this probability on a verdict is confident: beside one that contains it at the price of half an
 /// effect, the right one has 0.89 at most.
 static const double confident_from = 0.85;
+/// What is at least this part as likely as the verdict cannot be told from it.
+static const double in_set_from = 0.3;
 /// In parts of the floor, what may stand above it before anything is unknown: floors are known no better.
 static const double known_to = 1.5;
 
@@ -142,7 +144,7 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
                                    (left > 0.4 || (left > 0.15 && d->structure > 0.3)));
     d->is_none = leader->num_uses == 0 && !d->is_unknown;
     for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
-        if (d->cause[k].probability > 0.2 * d->cause[0].probability && !d->is_unknown) {
+        if (d->cause[k].probability > in_set_from * d->cause[0].probability && !d->is_unknown) {
             d->indistinguishable[d->num_indistinguishable++] = k;
         }
     }

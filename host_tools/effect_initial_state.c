@@ -70,6 +70,7 @@ const effect_t effect_initial_state = {
     .parameter = node_parameters,
     .limits = node_limits,
     .configure = configure_nodes,
+    .superseded = true,
 };
 
 const effect_t effect_initial_state_turning_points = {

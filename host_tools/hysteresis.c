@@ -454,6 +454,10 @@ bool hysteresis_keeps_plays(const hysteresis_t* hysteresis)
 void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,
                       size_t num_samples, double* field)
 {
+    if (field_is_neutral(&hysteresis->field)) {
+        memcpy(field, input, num_samples * sizeof *field);
+        return;
+    }
     field_state_t state = field_start(num_samples > 0 ? input[0] : 0.0);
     for (size_t i = 0; i < num_samples; ++i) {
         state = i > 0 ? field_next(&hysteresis->field, &state, input[i], time[i] - time[i - 1]) : state;
@@ -464,6 +468,14 @@ void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const 
 void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, const double* input,
                           const double* sum, size_t num_samples, double* nonhysteretic)
 {
+    const bool scales = differs(hysteresis->level_gain) || differs(hysteresis->level_product) ||
+                        differs(hysteresis->wear) || differs(hysteresis->fade);
+    for (size_t i = 0; !scales && i < num_samples; ++i) {
+        nonhysteretic[i] = hysteresis_stiffened(hysteresis, input[i], nonhysteretic[i] + sum[i]);
+    }
+    if (!scales) {
+        return;
+    }
     hysteresis_state_t state = {.model = model, .hysteresis = hysteresis};
     set_sum_range(&state);
     double travel = 0.0;
