@@ -133,7 +133,7 @@ typedef struct {
     double* amount;                ///< [filter's directions] of the nuisance, found with the last residual
     double* plays;                 ///< [num_samples] output of drive side and hysteresis with `before_body`
     double before_body[MAX_THETA]; ///< the parameters that it depends on, at the last step's end
-    double* simulated; ///< [num_samples]
+    double* simulated;             ///< [num_samples]
 } search_t;
 
 static bool acts_before_body(const effect_t* effect)
@@ -186,9 +186,13 @@ static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
         effect_use_t* use = &hypothesis->use[i];
         for (size_t p = 0; p < use->effect->num_parameters; p++) {
+            const effect_limits_t limits = effect_use_limits(gap->run, use, p);
+            if (use->effect->parameter[p].is_unit) {
+                use->parameter[p] = limits.neutral;
+                continue;
+            }
             free_t* f = &s.free[s.num_free++];
             f->value = &use->parameter[p];
-            const effect_limits_t limits = effect_use_limits(gap->run, use, p);
             f->bounds = (bounds_t){limits.low, limits.high, limits.logarithmic};
         }
     }

@@ -49,6 +49,7 @@ typedef struct {
     const char* unit;   ///< "s", "Hz", "input", "output", "1", "input/s", ...
     double least, most; ///< what is physical; beyond it a model file is refused
     bool optional;      ///< 0 when a model file leaves it out
+    bool is_unit;       ///< in what another counts: searches leave it at its neutral value
 } effect_parameter_t;
 
 /// Bounds and starts of a parameter on one record, for fitting.

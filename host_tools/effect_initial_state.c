@@ -36,7 +36,7 @@ static void node_limits(const effect_run_t* run, size_t parameter, effect_limits
 static void turn_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     static const double part[TURNS][3] = {
-        {0.5, 0.9, 0.2}, {0.3, 0.05, 0.1}, {0.2, 0.3, 0.1}, {0.1, 0.02, 0.05}};
+        {0.8, 0.9, 0.4}, {0.6, 0.05, 0.2}, {0.4, 0.3, 0.2}, {0.2, 0.02, 0.05}};
     const double low = run->input_min;
     const double high = run->input_min + run->input_span;
     const double first = run->input[0];

@@ -59,7 +59,7 @@ static void run_up_limits(const effect_run_t* run, size_t parameter, effect_limi
         limits(run, parameter, result);
     } else if (parameter == SETTLING) {
         *result = limits_logarithmic(0.02 * run->duration, 0.5 * run->duration, 0.02 * run->duration,
-                                     0.1 * run->duration, 0.1 * run->duration, 0.1 * run->duration);
+                                     0.08 * run->duration, 0.15 * run->duration, 0.05 * run->duration);
     } else {
         const double most = parameter == SHIFT ? 1.0 : 1.5;
         *result = limits_linear(-most, most, 0.0, 0.0, 0.2 * most, -0.2 * most);

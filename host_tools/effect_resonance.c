@@ -4,7 +4,8 @@
 /// Exact for a course that is linear between the samples, stable for any step. frequency > 0 [Hz], damping 0
 /// ... 0.999 [1]. At high frequency it does nothing. direct 0 ... 0.5 [1], 0 when left out: what the higher
 /// modes carry, quick enough to follow at once (residual flexibility, D. J. Ewins, Modal Testing, ch. 2).
-/// Inverse: x = y + (1 - direct) (2 damping/w y' + y''/w^2), corrected until it is exact.
+/// Inverse: x = y + 2 damping/w y' + y''/w^2, and with direct that through a mode of w / sqrt(direct) and
+/// damping sqrt(direct).
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -78,11 +79,16 @@ static void lead_series(const effect_run_t* run, const double* parameter, double
     double* curvature = xmalloc(size);
     series_derivatives(run, series, slope, curvature);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        series[i] +=
-            (1.0 - parameter[DIRECT]) * (2.0 * parameter[DAMPING] / w * slope[i] + curvature[i] / (w * w));
+        series[i] += 2.0 * parameter[DAMPING] / w * slope[i] + curvature[i] / (w * w);
     }
     free(slope);
     free(curvature);
+    if (parameter[DIRECT] > 0.0) {
+        const double root = sqrt(parameter[DIRECT]);
+        const double rest[] = {
+            [FREQUENCY] = parameter[FREQUENCY] / root, [DAMPING] = parameter[DAMPING] * root, [DIRECT] = 0.0};
+        apply_series(run, rest, series);
+    }
 }
 
 static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)

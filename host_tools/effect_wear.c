@@ -27,7 +27,7 @@ static const effect_parameter_t response_parameters[] = {
     [PIVOT] = {"pivot", "1", ANY_NUMBER, .optional = true},
     [SETTLING] = {"settling", "1/span", AT_LEAST_0, .optional = true},
     [SPEED_POWER] = {"speed_power", "1", .least = 0.0, .most = 4.0, .optional = true},
-    [SPEED] = {"speed", "input/s", AT_LEAST_0, .optional = true},
+    [SPEED] = {"speed", "input/s", AT_LEAST_0, .optional = true, .is_unit = true},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -56,8 +56,8 @@ static void response_limits(const effect_run_t* run, size_t parameter, effect_li
     case SPEED_POWER:
         *result = limits_linear(0.0, 1.2, 0.0, 0.1, 0.1, 0.8);
         break;
-    case SPEED: // a unit for what speed_power counts, not a number to find
-        *result = limits_linear(0.999 * speed, 1.001 * speed, speed, speed, speed, speed);
+    case SPEED:
+        *result = limits_linear(0.0, 2.0 * speed, speed, speed, speed, speed);
         break;
     default:
         limits(run, parameter, result);

@@ -33,7 +33,7 @@ typedef struct {
     double lag[LAGS];
     double power[POWER_LAGS];
     double place, speed;
-    double before, heat;
+    double before, heat, spans;
     double spline[MOST_UNKNOWNS];
     bool started;
 } plant_t;
@@ -75,7 +75,7 @@ static double drive(plant_t* plant, double u)
     }
     if (is(plant, "slew_limit")) {
         const double reach = plant->p[0] * plant->dt;
-        plant->drive += clamp(u - plant->drive, -reach, reach);
+        plant->drive += clamp(u - plant->drive, -reach * (1 - plant->p[1]), reach * (1 + plant->p[1]));
         return plant->drive;
     }
     return u;
@@ -219,6 +219,10 @@ static double plays(plant_t* plant, double command, double temperature)
         plant->sum += model->weight[j] * plant->w[j];
     }
     plant->travel += fabs(command - plant->command);
+    if (by(plant, "wear", "response")) {
+        const double speed = fabs(command - plant->command) / plant->dt;
+        plant->spans += plant->dt / (2 * half_range) * speed * pow(speed / plant->p[4], plant->p[3]);
+    }
     plant->command = command;
     const double level = command / half_range;
     const double faded = exp(-plant->p[0] * plant->travel / (2 * half_range));
@@ -252,9 +256,10 @@ static double worn(const plant_t* plant, double y)
     double middle;
     double half;
     output_range(plant, &middle, &half);
-    const double pivot = middle + plant->p[1] * half;
-    const double span = plant->model->input_max - plant->model->input_min;
-    return pivot + (y - pivot) / exp(plant->p[0] * plant->travel / span);
+    const double* p = plant->p;
+    const double pivot = middle + p[1] * half;
+    const double settled = (1 - exp(-p[2] * plant->spans)) / p[2];
+    return pivot + (y - pivot) / exp(p[0] * settled);
 }
 
 /// (1 + t/onset)^order - 1 as a mixture of lags, ten a decade from a tenth of the onset on: the integral over
@@ -391,12 +396,37 @@ static double curved(const plant_t* plant, double y)
 static double hum(const plant_t* plant, double time)
 {
     const double* p = plant->p;
+    const double start = by(plant, "periodic_disturbance", "run_up") ? exp(-time / p[9]) : 0;
     double sum = 0;
     for (int h = 1; h <= 3; ++h) {
-        const double angle = 2 * acos(-1.0) * h * p[0] * time;
+        const double angle = 2 * acos(-1.0) * h * (p[0] * time + p[7] * start);
         sum += p[2 * h - 1] * sin(angle) + p[2 * h] * cos(angle);
     }
-    return sum;
+    return sum * (1 + p[8] * start);
+}
+
+/// The contact follows what drives it by small steps, the gap is about the contact.
+static double loose(plant_t* plant, double y)
+{
+    const double half = plant->p[0] / 2;
+    if (!plant->started) {
+        plant->before = y;
+        plant->place = y + plant->p[1] * half;
+    }
+    plant->before += plant->dt / plant->p[2] * (y - plant->before);
+    plant->place = clamp(plant->place, plant->before - half, plant->before + half);
+    return plant->place + y - plant->before;
+}
+
+/// The logarithm of a sum of exponentials: the soft form of a largest and of a smallest.
+static double soft_bottom(double y, double low, double knee)
+{
+    return knee * log(exp(y / knee) + exp(low / knee));
+}
+
+static double soft_top(double y, double high, double knee)
+{
+    return -knee * log(exp(-y / knee) + exp(-high / knee));
 }
 
 static double sensor(plant_t* plant, double y, double time)
@@ -410,14 +440,13 @@ static double sensor(plant_t* plant, double y, double time)
         const double w = 2 * acos(-1.0) * p[0];
         plant->speed += plant->dt * (w * w * (y - plant->place) - 2 * p[1] * w * plant->speed);
         plant->place += plant->dt * plant->speed;
-        return plant->place;
+        return (1 - p[2]) * plant->place + p[2] * y;
     }
     if (is(plant, "backlash")) {
-        plant->place = clamp(plant->place, y - p[0] / 2, y + p[0] / 2);
-        return plant->place;
+        return loose(plant, y);
     }
     if (is(plant, "output_saturation")) {
-        return clamp(y, p[0], p[1]);
+        return soft_top(soft_bottom(y, p[0], p[2]), p[1], p[2]);
     }
     if (is(plant, "output_nonlinearity")) {
         return curved(plant, y);

@@ -197,9 +197,10 @@ static void recover(const effect_case_t* of)
 {
     search_t search = {.use = effect_case_use(of)};
     search.num = search.use.effect->num_parameters;
-    // What a case leaves out is left out of its search.
-    while (search.use.effect->parameter[search.num - 1].optional &&
-           !(fabs(of->parameter[search.num - 1]) > 0)) {
+    // What a case leaves out is left out of its search, and units are.
+    while (search.use.effect->parameter[search.num - 1].is_unit ||
+           (search.use.effect->parameter[search.num - 1].optional &&
+            !(fabs(of->parameter[search.num - 1]) > 0))) {
         search.num--;
     }
     double truth[EFFECT_MAX_PARAMETERS];
