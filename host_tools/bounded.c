@@ -5,8 +5,8 @@
 /// Just inside, where the sine still has a slope.
 static const double nearest_to_bound = 0.999;
 
-/// In the middle of the bounds rounding leaves a number next to zero, and a search's difference step is a part
-/// of the number it steps from.
+/// In the middle of the bounds rounding leaves a number next to zero, and a search's difference step is a
+/// part of the number it steps from.
 static const double rounding = 1e-9;
 
 double bounded_to_free(bounds_t b, double value)
