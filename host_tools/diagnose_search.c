@@ -1,8 +1,8 @@
 #include "diagnose_search.h"
 
+#include "diagnose_guess.h"
 #include "parallel.h"
 #include "series.h"
-#include "sinusoid.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,57 +37,6 @@ static int evaluations_of(const hypothesis_t* hypothesis)
     return evaluations;
 }
 
-static void guess_disturbance(const gap_t* gap, const double* predicted, effect_use_t* use)
-{
-    const effect_run_t* run = gap->run;
-    double* difference = xmalloc(run->num_samples * sizeof *difference);
-    for (size_t t = 0; t < run->num_samples; t++) {
-        difference[t] = gap->output[t] - predicted[t];
-    }
-    const sinusoid_t peak = strongest_sinusoid(run->time, run->sample_time, difference, run->num_samples);
-    free(difference);
-    const double guess[EFFECT_MAX_PARAMETERS] = {peak.frequency, peak.sine, peak.cosine};
-    memcpy(use->parameter, guess, sizeof guess);
-}
-
-/// By trying: the response to a mode follows the work's own spectrum, so the gap's need not peak there. Modes
-/// a tenth apart, as wide as their damping.
-static void guess_mode(const gap_t* gap, const double* predicted, effect_use_t* use)
-{
-    enum { MODES = 48 };
-    const effect_run_t* run = gap->run;
-    const size_t n = run->num_samples;
-    double* ringing = xmalloc(n * sizeof *ringing);
-    effect_use_t trial = *use;
-    double least = HUGE_VAL;
-    for (size_t k = 0; k < MODES; k++) {
-        const double guess[EFFECT_MAX_PARAMETERS] = {0.45 / run->sample_time * pow(1.1, -(double)k), 0.1};
-        memcpy(trial.parameter, guess, sizeof guess);
-        memcpy(ringing, predicted, n * sizeof *ringing);
-        effect_use_apply(run, &trial, ringing);
-        const double left = series_mean_square(ringing, gap->output, n);
-        if (left < least) {
-            least = left;
-            memcpy(use->parameter, guess, sizeof guess);
-        }
-    }
-    free(ringing);
-}
-
-/// Parameters that no gradient leads to: the frequency of a disturbance, from the spectrum of what
-/// `predicted` leaves, and of a mode.
-static bool guess_parameters(const candidates_t* c, const double* predicted, effect_use_t* use)
-{
-    const bool disturbs = strcmp(use->effect->name, "periodic_disturbance") == 0;
-    const bool rings = strcmp(use->effect->name, "resonance") == 0;
-    if (disturbs) {
-        guess_disturbance(c->gap, predicted, use);
-    } else if (rings) {
-        guess_mode(c->gap, predicted, use);
-    }
-    return disturbs || rings;
-}
-
 static void add_single(candidates_t* c, const effect_t* effect, const char* column)
 {
     // How coarse a converter is stands in the record's own values (diagnose_grid.h).
@@ -109,7 +58,7 @@ static void try_single(void* context, size_t index)
 {
     const candidates_t* c = context;
     hypothesis_t* hypothesis = &c->hypothesis[index + 1];
-    const bool guessed = guess_parameters(c, c->hypothesis[0].predicted, &hypothesis->use[0]);
+    const bool guessed = guess_parameters(c->gap, c->hypothesis[0].predicted, &hypothesis->use[0]);
     hypothesis_search(hypothesis, c->gap, guessed, evaluations_of(hypothesis));
 }
 
@@ -252,7 +201,7 @@ static void try_extension(void* context, size_t index)
     e->fitted = joined(e->base, e->further);
     hypothesis_fit(&e->fitted, c->gap, -1, brief_evaluations(&e->fitted));
     hypothesis_t first = from_start(c, e->base, e->further, 0);
-    (void)guess_parameters(c, e->base->predicted, &first.use[e->base->num_uses]);
+    (void)guess_parameters(c->gap, e->base->predicted, &first.use[e->base->num_uses]);
     fit_briefly(c, &first, &e->fitted);
     hypothesis_t promising = most_promising(c, e);
     if (promising.use[e->base->num_uses].effect != first.use[e->base->num_uses].effect) {
@@ -305,6 +254,41 @@ static void add_best(candidates_t* c, extension_t* extension, size_t count, para
     parallel_for(num_refined, c->num_threads, refine, &extensions, long_one);
 }
 
+/// The one that names the same, or NULL.
+static hypothesis_t* same_as(candidates_t* c, const hypothesis_t* named)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        const hypothesis_t* h = &c->hypothesis[i];
+        if (h->num_uses == named->num_uses && hypothesis_same_names(h, named)) {
+            return &c->hypothesis[i];
+        }
+    }
+    return NULL;
+}
+
+/// Beside another effect a search may find what it did not find alone: each of the combinations from `first`
+/// on without one of its effects, from there.
+static void refit_parts(candidates_t* c, size_t first)
+{
+    for (size_t i = first; i < c->count; i++) {
+        for (size_t out = 0; out < c->hypothesis[i].num_uses; out++) {
+            hypothesis_t part = c->hypothesis[i];
+            part.num_uses--;
+            memmove(&part.use[out], &part.use[out + 1], (part.num_uses - out) * sizeof *part.use);
+            hypothesis_t* own = same_as(c, &part);
+            if (own != NULL && own->num_uses > 0) {
+                hypothesis_fit(&part, c->gap, -1, brief_evaluations(&part));
+                if (hypothesis_mean_square(&part) < hypothesis_mean_square(own)) {
+                    memcpy(own->use, part.use, sizeof own->use);
+                    own->fit_rmse = part.fit_rmse;
+                    own->is_another = part.is_another;
+                    hypothesis_predict(own, c->gap);
+                }
+            }
+        }
+    }
+}
+
 void candidates_add_pairs(candidates_t* c)
 {
     hypothesis_t leader[MAX_SINGLES];
@@ -319,6 +303,7 @@ void candidates_add_pairs(candidates_t* c)
     add_best(c, pair, count, (parallel_progress_t){"diagnose", 0.4, 0.6},
              (parallel_progress_t){"diagnose", 0.6, 0.7});
     free(pair);
+    refit_parts(c, 1 + c->num_singles);
 }
 
 void candidates_add_triples(candidates_t* c)
@@ -333,6 +318,7 @@ void candidates_add_triples(candidates_t* c)
         }
     }
     extension_t triple[MAX_SINGLES];
+    const size_t first = c->count;
     size_t count = 0;
     for (size_t j = 0; best != NULL && j < singles; j++) {
         if (!hypothesis_names_use(best, &leader[j].use[0])) {
@@ -341,4 +327,5 @@ void candidates_add_triples(candidates_t* c)
     }
     add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.7, 0.75},
              (parallel_progress_t){"diagnose", 0.75, 0.8});
+    refit_parts(c, first);
 }

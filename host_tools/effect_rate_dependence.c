@@ -9,7 +9,7 @@
 /// tau >= 0 [s]; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles the
 /// largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at the
 /// mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag tells
-/// these from an input_lag. They count half an effect more, as with a share of 1 a small one is a lag of the
+/// these from an input_lag. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the
 /// input. Inverse: by halving, sample by sample; widening has none. Sources: viscous plays as in G.
 /// Bertotti's dynamic Preisach model, IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S.
 /// Rakheja, C.-Y. Su, Mechatronics 19 (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn.
@@ -137,7 +137,7 @@ const effect_t effect_rate_dependence_diffusion = {
     .parameter = diffusion_parameters,
     .limits = diffusion_limits,
     .configure = configure_diffusion,
-    .covers = 0.5,
+    .covers = 0.25,
 };
 
 const effect_t effect_rate_dependence_excess = {
@@ -149,5 +149,5 @@ const effect_t effect_rate_dependence_excess = {
     .parameter = excess_parameters,
     .limits = excess_limits,
     .configure = configure_excess,
-    .covers = 0.5,
+    .covers = 0.25,
 };

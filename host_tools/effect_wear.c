@@ -156,4 +156,5 @@ const effect_t effect_wear_response = {
     .limits = response_limits,
     .apply = apply_response,
     .invert = invert_response,
+    .covers = 0.25, // fading that settles at once is a gain
 };

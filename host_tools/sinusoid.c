@@ -72,6 +72,11 @@ sinusoid_t strongest_sinusoid(const double* time, double step, const double* ser
     return line;
 }
 
+double sinusoid_fit(const double* time, const double* series, size_t num_samples, sinusoid_t* line)
+{
+    return fit_sinusoid(time, series, num_samples, series_mean(series, num_samples), line);
+}
+
 double sinusoid_share(const double* time, const double* series, size_t num_samples, double frequency)
 {
     const double mean = series_mean(series, num_samples);

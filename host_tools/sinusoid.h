@@ -13,6 +13,9 @@ typedef struct {
 /// half its inverse, or where samples are missing num_samples over the duration if that is less (spectrum.h):
 /// in a thinned record faster lines are not found.
 sinusoid_t strongest_sinusoid(const double* time, double step, const double* series, size_t num_samples);
+/// Least-squares amplitudes at the line's frequency, the series' mean left out; returns the energy that they
+/// explain.
+double sinusoid_fit(const double* time, const double* series, size_t num_samples, sinusoid_t* line);
 /// The part of the series' variance, 0 ... 1, in the line of this frequency.
 double sinusoid_share(const double* time, const double* series, size_t num_samples, double frequency);
 
