@@ -173,5 +173,5 @@ const effect_t effect_periodic_disturbance_run_up = {
     .apply = apply_run_up,
     .invert = invert_run_up,
     .follows_input = follows_input,
-    .covers = 0.5,
+    .covers = 0.75, // what runs evenly comes first
 };

@@ -1,5 +1,6 @@
 #include "classical_model.h"
 #include "diagnose.h"
+#include "diagnose_shrink.h"
 #include "diagnose_text.h"
 #include "effect_catalogue.h"
 #include "random.h"
@@ -102,6 +103,28 @@ static void test_a_hum_of_its_own_frequency_is_named(void)
     // Five times the Cramer-Rao bound, sqrt(24 / n) noise / (amplitude duration) over 2 pi.
     const double bound = 5 * sqrt(24.0 / SAMPLES) * noise / (0.1 * 30) / (2 * pi);
     TEST_ASSERT_DOUBLE_WITHIN(bound, 1.37 * frequency, verdict->use[0].parameter[0]);
+}
+
+/// A whole period ahead at the start, and half as strong again: no gradient leads there from an even one.
+/// What another record is told of it is the settled machine.
+static void test_a_machine_that_runs_up_is_named(void)
+{
+    run_plant();
+    for (size_t t = 0; t < SAMPLES; t++) {
+        const double start = exp(-time_of[t] / 2);
+        output[t] += 0.1 * (1 + 0.5 * start) * sin(2 * pi * (1.37 * frequency * time_of[t] + start) + 0.4);
+    }
+    run_diagnosis();
+    TEST_ASSERT_FALSE(diagnosis.is_unknown);
+    const hypothesis_t* verdict = diagnosis.cause[0].hypothesis;
+    TEST_ASSERT_EQUAL(1, verdict->num_uses);
+    TEST_ASSERT_EQUAL_PTR(&effect_periodic_disturbance_run_up, verdict->use[0].effect);
+    // What is left is the noise, known to some 3 %.
+    TEST_ASSERT_TRUE(verdict->fit_rmse < 1.1 * noise);
+    effect_use_t uses[HYPOTHESIS_MAX_EFFECTS];
+    TEST_ASSERT_EQUAL(1, diagnosis_handed_out(&diagnosis, uses));
+    TEST_ASSERT_EQUAL_DOUBLE(0, uses[0].parameter[7]);
+    TEST_ASSERT_EQUAL_DOUBLE(0, uses[0].parameter[8]);
 }
 
 static void test_a_hum_in_step_with_the_input_is_none(void)
@@ -234,6 +257,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_hum_of_its_own_frequency_is_named);
+    RUN_TEST(test_a_machine_that_runs_up_is_named);
     RUN_TEST(test_a_hum_in_step_with_the_input_is_none);
     RUN_TEST(test_a_hum_far_above_the_input_is_named);
     RUN_TEST(test_lines_that_follow_the_input);
