@@ -416,6 +416,20 @@ void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)
     search_free(&s);
 }
 
+/// Of what is left above the floor, an effect more must take away at least this part: less than that another
+/// effect's free parameters take from a body's own misfit, or from the first effect's physics being a little
+/// other than the plant's.
+static const double part_to_gain = 0.4;
+
+double hypothesis_price(const hypothesis_t* hypothesis)
+{
+    double price = 0;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        price += 1 + hypothesis->use[i].effect->covers;
+    }
+    return -log(1 - part_to_gain) * price;
+}
+
 double hypothesis_mean_square(const hypothesis_t* hypothesis)
 {
     return hypothesis->is_another ? HUGE_VAL : hypothesis->fit_rmse * hypothesis->fit_rmse;

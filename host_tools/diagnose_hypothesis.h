@@ -66,6 +66,8 @@ void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap);
 /// Mean square by which it is weighed: with what the body leaves open priced, `fit_rmse` is the record's
 /// marginal likelihood. Infinite for one that is another.
 double hypothesis_mean_square(const hypothesis_t* hypothesis);
+/// What its effects have to gain to be worth it: a logarithm of the ratio of what is left.
+double hypothesis_price(const hypothesis_t* hypothesis);
 /// Fills block_error by fits from the present parameters.
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap);
 

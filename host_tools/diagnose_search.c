@@ -91,6 +91,13 @@ static int brief_evaluations(const hypothesis_t* hypothesis)
     return hypothesis_is_behind_plays(hypothesis) ? 3 * BRIEF_EVALUATIONS : BRIEF_EVALUATIONS;
 }
 
+/// Whether one mechanism stands better than another of its name.
+static bool is_better_mechanism(const hypothesis_t* a, const hypothesis_t* b)
+{
+    return hypothesis_mean_square(a) * exp(hypothesis_price(a)) <
+           hypothesis_mean_square(b) * exp(hypothesis_price(b));
+}
+
 /// The best mechanism of each name of the catalogue, best first: leaders[] of the hypotheses with one effect;
 /// returns how many.
 static size_t leading_singles(const candidates_t* c, hypothesis_t* leaders)
@@ -106,7 +113,7 @@ static size_t leading_singles(const candidates_t* c, hypothesis_t* leaders)
         }
         if (k == count) {
             leaders[count++] = c->hypothesis[i];
-        } else if (hypothesis_mean_square(&c->hypothesis[i]) < hypothesis_mean_square(&leaders[k])) {
+        } else if (is_better_mechanism(&c->hypothesis[i], &leaders[k])) {
             leaders[k] = c->hypothesis[i];
         }
     }
@@ -218,7 +225,7 @@ static void try_other_mechanisms(const candidates_t* c, const extension_t* e, hy
             hypothesis_names_use(other, &e->further->use[0])) {
             hypothesis_t trial = joined(e->base, other);
             hypothesis_fit(&trial, c->gap, -1, brief_evaluations(&trial));
-            *best = trial.fit_rmse < best->fit_rmse ? trial : *best;
+            *best = is_better_mechanism(&trial, best) ? trial : *best;
         }
     }
 }
@@ -233,7 +240,7 @@ static void refine(void* context, size_t index)
     try_other_mechanisms(extensions->c, &extensions->extension[index], &brief);
     hypothesis_fit(&brief, gap, -1, evaluations_of(&brief));
     hypothesis_search(hypothesis, gap, false, evaluations_of(hypothesis));
-    if (brief.fit_rmse < hypothesis->fit_rmse) {
+    if (is_better_mechanism(&brief, hypothesis)) {
         memcpy(hypothesis->use, brief.use, sizeof hypothesis->use);
         hypothesis->fit_rmse = brief.fit_rmse;
         hypothesis->is_another = brief.is_another;

@@ -5,15 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Of what is left above the floor, an effect more must take away at least this part: less than that another
-/// effect's free parameters take from a body's own misfit, or from the first effect's physics being a little
-/// other than the plant's.
-static const double part_to_gain = 0.4;
 /// Grain in parts of floor and gap.
 static const double floor_grain = 0.2;
-static const double gap_grain = 4e-3;
+static const double gap_grain = 1e-3;
 /// Where one effect alone leaves less than the floor expected, the body cannot be much worse than that.
-static const double floor_over_least = 2;
+static const double floor_over_least = 1.5;
 /// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are
 /// more hypotheses the more effects they have.
 static const double sharpness = 8;
@@ -41,20 +37,12 @@ static double above_floor(const scale_t* scale, const hypothesis_t* hypothesis)
     return fmax(hypothesis_mean_square(hypothesis) - scale->floor, 0);
 }
 
-static double price_of(const hypothesis_t* hypothesis)
-{
-    double price = 0;
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
-        price += 1 + hypothesis->use[i].effect->covers;
-    }
-    return -log(1 - part_to_gain) * price;
-}
-
 double verdict_score(const scale_t* scale, const hypothesis_t* hypothesis)
 {
     // Far above the floor what is above it, far below it less and less.
     const double above = hypothesis_mean_square(hypothesis) - scale->floor;
-    return log(0.5 * (above + sqrt(above * above + 4 * scale->grain * scale->grain))) + price_of(hypothesis);
+    return log(0.5 * (above + sqrt(above * above + 4 * scale->grain * scale->grain))) +
+           hypothesis_price(hypothesis);
 }
 
 size_t verdict_best(const scale_t* scale, const candidates_t* c)
@@ -90,9 +78,9 @@ static int by_probability(const void* a, const void* b)
 
 /// From this probability on a verdict is confident: beside one that contains it at the price of half an
 /// effect, the right one has 0.89 at most.
-static const double confident_from = 0.85;
+static const double confident_from = 0.87;
 /// What is at least this part as likely as the verdict cannot be told from it.
-static const double in_set_from = 0.3;
+static const double in_set_from = 0.15;
 /// In parts of the floor, what may stand above it before anything is unknown: floors are known no better.
 static const double known_to = 1.5;
 

@@ -41,7 +41,7 @@ typedef struct {
     const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
 } effect_run_t;
 
-enum { EFFECT_MAX_PARAMETERS = 10 };
+enum { EFFECT_MAX_PARAMETERS = 20 };
 
 /// A parameter, as it stands in the model file and in reports.
 typedef struct {

@@ -4,20 +4,24 @@
 ///     of its
 ///              duration
 ///     fine_spline: likewise at k/10
+///     finest_spline: likewise at k/20
 /// slope [output/s], node_k [output]. Holds for this record alone. Zero at the record's start: a constant is
 /// an offset. Spline: C. de Boor, A Practical Guide to Splines, ch. IV.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
-enum { NODES = 6, FINE_NODES = 10 };
+enum { NODES = 6, FINE_NODES = 10, FINEST_NODES = 20 };
 
 static const effect_parameter_t slope_parameter[] = {{"slope", "output/s", ANY_NUMBER}};
 
-static const effect_parameter_t node_parameters[FINE_NODES] = {
-    {"node_1", "output", ANY_NUMBER},  {"node_2", "output", ANY_NUMBER}, {"node_3", "output", ANY_NUMBER},
-    {"node_4", "output", ANY_NUMBER},  {"node_5", "output", ANY_NUMBER}, {"node_6", "output", ANY_NUMBER},
-    {"node_7", "output", ANY_NUMBER},  {"node_8", "output", ANY_NUMBER}, {"node_9", "output", ANY_NUMBER},
-    {"node_10", "output", ANY_NUMBER},
+static const effect_parameter_t node_parameters[FINEST_NODES] = {
+    {"node_1", "output", ANY_NUMBER},  {"node_2", "output", ANY_NUMBER},  {"node_3", "output", ANY_NUMBER},
+    {"node_4", "output", ANY_NUMBER},  {"node_5", "output", ANY_NUMBER},  {"node_6", "output", ANY_NUMBER},
+    {"node_7", "output", ANY_NUMBER},  {"node_8", "output", ANY_NUMBER},  {"node_9", "output", ANY_NUMBER},
+    {"node_10", "output", ANY_NUMBER}, {"node_11", "output", ANY_NUMBER}, {"node_12", "output", ANY_NUMBER},
+    {"node_13", "output", ANY_NUMBER}, {"node_14", "output", ANY_NUMBER}, {"node_15", "output", ANY_NUMBER},
+    {"node_16", "output", ANY_NUMBER}, {"node_17", "output", ANY_NUMBER}, {"node_18", "output", ANY_NUMBER},
+    {"node_19", "output", ANY_NUMBER}, {"node_20", "output", ANY_NUMBER},
 };
 
 static void slope_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -59,7 +63,7 @@ static void invert_slope(const effect_run_t* run, const double* parameter, const
 /// (second difference), by elimination.
 static void curvatures(const double* value, size_t nodes, double* m)
 {
-    double pivot[FINE_NODES + 1] = {0};
+    double pivot[FINEST_NODES + 1] = {0};
     for (size_t k = 0; k <= nodes; ++k) {
         m[k] = 0.0;
     }
@@ -75,11 +79,11 @@ static void curvatures(const double* value, size_t nodes, double* m)
 
 static void add_spline(const effect_run_t* run, const double* node, size_t nodes, double sign, double* series)
 {
-    double value[FINE_NODES + 1] = {0};
+    double value[FINEST_NODES + 1] = {0};
     for (size_t k = 0; k < nodes; ++k) {
         value[k + 1] = sign * node[k];
     }
-    double m[FINE_NODES + 1];
+    double m[FINEST_NODES + 1];
     curvatures(value, nodes, m);
     const double spacing = (run->time[run->num_samples - 1] - run->time[0]) / (double)nodes;
     size_t cell = 0;
@@ -124,6 +128,20 @@ static void invert_fine_spline(const effect_run_t* run, const double* parameter,
     add_spline(run, parameter, FINE_NODES, -1.0, series);
 }
 
+static void apply_finest_spline(const effect_run_t* run, const double* parameter, const double* column,
+                                double* series)
+{
+    (void)column;
+    add_spline(run, parameter, FINEST_NODES, 1.0, series);
+}
+
+static void invert_finest_spline(const effect_run_t* run, const double* parameter, const double* column,
+                                 double* series)
+{
+    (void)column;
+    add_spline(run, parameter, FINEST_NODES, -1.0, series);
+}
+
 const effect_t effect_drift_linear = {
     .name = "drift",
     .mechanism = "linear",
@@ -156,4 +174,16 @@ const effect_t effect_drift_fine_spline = {
     .apply = apply_fine_spline,
     .invert = invert_fine_spline,
     .covers = 0.4, // ten nodes follow slow parts of other effects
+};
+
+const effect_t effect_drift_finest_spline = {
+    .name = "drift",
+    .mechanism = "finest_spline",
+    .stage = EFFECT_SENSOR,
+    .num_parameters = FINEST_NODES,
+    .parameter = node_parameters,
+    .limits = node_limits,
+    .apply = apply_finest_spline,
+    .invert = invert_finest_spline,
+    .covers = 0.8,
 };

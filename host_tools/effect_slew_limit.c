@@ -44,5 +44,6 @@ const effect_t effect_slew_limit = {
     .limits = limits,
     .has_threshold = true,
     .apply = apply,
+    .covers = 0.25, // on periodic work a limit on either way is a lag
     .no_inverse = "no command makes the drive faster than its rate; ask for a slower output",
 };

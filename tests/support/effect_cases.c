@@ -11,11 +11,12 @@ static const double coarse_step = 0.004;
 // The stiffness reads the loop's middle from cells of 1/256 of an input unit: across a play's corner, where
 // the slope changes by at most 0.12, a cell is 0.4 * 0.12 / 1024 off, and none of the curves bends as much;
 // half a sample is 0.002 s of motion, here up to 8e-3.
-// Heat: where the speed changes within a sample the mean square of its two parts is at most a quarter of the
-// speed's square above the square of their mean, 7.3 at a speed below 5.4; nine such samples (eight plays and
-// the turn) for each of at most four turns within tau, each with a weight of sample / tau, are below 0.8 of a
-// unit, which moves the output by at most (offset + gain half) < 0.02 of that: 1.5 times half a sample's
-// motion. Friction loses the sample's own travel at a turn, which is less.
+// Twenty nodes: the other plant's spline is a sum of truncated powers, whose elimination loses some six
+// digits. Heat: where the speed changes within a sample the mean square of its two parts is at most a quarter
+// of the speed's square above the square of their mean, 7.3 at a speed below 5.4; nine such samples (eight
+// plays and the turn) for each of at most four turns within tau, each with a weight of sample / tau, are
+// below 0.8 of a unit, which moves the output by at most (offset + gain half) < 0.02 of that: 1.5 times half
+// a sample's motion. Friction loses the sample's own travel at a turn, which is less.
 static const effect_case_t cases[] = {
     {"gain_offset", NULL, {1.2, 0.1}, 0.0},
     {"delay", NULL, {0.083}, 1.0},
@@ -49,6 +50,11 @@ static const effect_case_t cases[] = {
     {"drift", "linear", {0.03}, 0.0},
     {"drift", "spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1}, 0.0},
     {"drift", "fine_spline", {0.1, 0.15, 0.1, -0.1, -0.2, -0.1, 0.05, 0.1, 0.05, 0.1}, 0.0},
+    {"drift",
+     "finest_spline",
+     {0.1,  0.15, 0.1,  -0.1, -0.2, -0.1,  0.05, 0.1,   0.05, 0.1,
+      0.12, 0.2,  0.15, 0.1,  0.05, -0.05, -0.1, -0.05, 0.1,  0.15},
+     1e-6},
     {"periodic_disturbance", NULL, {0.55, 0.05, -0.03, 0.01, 0.02, -0.015, 0.01}, 0.0},
     {"periodic_disturbance", "run_up", {0.55, 0.05, -0.03, 0.01, 0.02, -0.015, 0.01, -0.2, 0.5, 1.6}, 0.0},
     {"quantization", NULL, {0.07, 0.02}, 0.0},
