@@ -2,18 +2,19 @@
 /// internal friction).
 ///     play_lag:  tau dw_j/dt = (where Eq. (6) puts the play, given w_j) - w_j: on a ramp every play trails
 ///     by
-///                tau dw/dt, at rest inside its strip it stays
+///                tau_j dw/dt, at rest inside its strip it stays; tau_j = tau (1 + spread r_j / r_N): walls
+///                that take more to move may be slower; hold as for an input_lag
 ///     widening:  r_j + coefficient |dv/dt| for every radius
 ///     diffusion: the plays see the field inside, which diffuses across a conductor (field.h)
 ///     excess:    the plays see the field less what moving walls take, coefficient * sqrt(rate) (field.h)
-/// tau >= 0 [s]; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles the
-/// largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at the
-/// mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag tells
-/// these from an input_lag. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the
-/// input. Inverse: by halving, sample by sample; widening has none. Sources: viscous plays as in G.
-/// Bertotti's dynamic Preisach model, IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S.
-/// Rakheja, C.-Y. Su, Mechatronics 19 (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn.
-/// 24 (1988) 621.
+/// tau >= 0 [s]; spread > -1 and hold 0 ... 1 [1], 0 when left out; coefficient >= 0 [envelope units per
+/// input/s], fitted up to where the mean rate doubles the largest radius; excess >= 0 [input units per root
+/// of input/s], fitted up to half the range behind at the mean rate. share 0 ... 1: how much of the
+/// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. They count a
+/// quarter of an effect more, as with a share of 1 a small one is a lag of the input. Inverse: by halving,
+/// sample by sample; widening has none. Sources: viscous plays as in G. Bertotti's dynamic Preisach model,
+/// IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S. Rakheja, C.-Y. Su, Mechatronics 19
+/// (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -79,6 +80,8 @@ static void configure_lag(const effect_run_t* run, const double* parameter, cons
     (void)run;
     (void)column;
     hysteresis->play_lag += parameter[0];
+    hysteresis->lag_spread = parameter[1];
+    hysteresis->lag_hold = parameter[2];
 }
 
 static void widening_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -97,12 +100,17 @@ static void configure_widening(const effect_run_t* run, const double* parameter,
     hysteresis->widening += parameter[0];
 }
 
-static const effect_parameter_t play_lag_parameter[] = {{"tau", "s", AT_LEAST_0}};
+static const effect_parameter_t play_lag_parameters[] = {
+    {"tau", "s", AT_LEAST_0},
+    {"spread", "1", .least = -0.99, .most = 10.0, .optional = true},
+    {"hold", "1", .least = 0.0, .most = 1.0, .optional = true},
+};
 
 static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
-    (void)parameter;
-    *result = limits_time_constant(run);
+    *result = parameter == 0   ? limits_time_constant(run)
+              : parameter == 1 ? limits_linear(-0.9, 3.0, 0.0, 0.3, 1.0, 0.1)
+                               : hold_limits();
 }
 
 const effect_t effect_rate_dependence_play_lag = {
@@ -110,9 +118,10 @@ const effect_t effect_rate_dependence_play_lag = {
     .mechanism = "play_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
-    .num_parameters = COUNT_OF(play_lag_parameter),
-    .parameter = play_lag_parameter,
+    .num_parameters = COUNT_OF(play_lag_parameters),
+    .parameter = play_lag_parameters,
     .limits = play_lag_limits,
+    .has_threshold = true,
     .configure = configure_lag,
 };
 

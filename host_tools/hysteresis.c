@@ -1,5 +1,6 @@
 #include "hysteresis.h"
 #include "reference.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -161,6 +162,13 @@ static double moved(double w, double radius, const strip_t* to, int direction, b
     return direction < 0 ? smaller(high, larger(low, w)) : larger(low, smaller(high, w));
 }
 
+static strip_t strip_between(const strip_t* from, const strip_t* to, double part)
+{
+    return (strip_t){from->ascending + part * (to->ascending - from->ascending),
+                     from->descending + part * (to->descending - from->descending),
+                     from->extra + part * (to->extra - from->extra)};
+}
+
 static void move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
 {
     const model_t* model = state->model;
@@ -171,11 +179,13 @@ static void move_plays(const hysteresis_state_t* state, double v, double step, d
     const strip_t to = strip_at(model, v, speed + (width != NULL ? width[state->sample + 1] : 0.0));
     const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
     const bool own_radii = width == NULL && !differs(hysteresis->widening);
+    const strip_t held = strip_between(&from, &to, hysteresis->lag_hold);
+    const double largest = larger(model->radius[model->num_plays - 1], DBL_MIN);
     for (size_t j = 0; j < model->num_plays; ++j) {
         const double w = state->memory[j];
-        memory[j] = hysteresis->play_lag > 0.0
-                        ? lagged(w, model->radius[j], &from, &to, direction, step, hysteresis->play_lag)
-                        : moved(w, model->radius[j], &to, direction, own_radii);
+        const double lag = hysteresis->play_lag * (1.0 + hysteresis->lag_spread * model->radius[j] / largest);
+        memory[j] = lag > 0.0 ? lagged(w, model->radius[j], &held, &to, direction, step, lag)
+                              : moved(w, model->radius[j], &to, direction, own_radii);
     }
 }
 

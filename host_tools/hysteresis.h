@@ -9,9 +9,12 @@
 
 /// What effects set; hysteresis_neutral() does nothing.
 typedef struct {
-    double play_lag; ///< [s] every play follows where the rate-independent rule would put it with this time
-                     ///< constant
-    double widening; ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
+    double play_lag;   ///< [s] every play follows where the rate-independent rule would put it with this time
+                       ///< constant
+    double lag_spread; ///< play_lag is 1 + lag_spread as long at the largest radius, in between by the radius
+    double lag_hold;   ///< how far the strip is on its way as a sample begins: 0, it goes straight; 1, it is
+                       ///< there at once
+    double widening;   ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
     double
         level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level

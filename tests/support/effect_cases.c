@@ -22,7 +22,7 @@ static const effect_case_t cases[] = {
     {"delay", NULL, {0.083}, 1.0},
     {"input_lag", NULL, {0.15, 0.3}, 1.3},
     {"slew_limit", NULL, {1.5, 0.2}, 1.0},
-    {"rate_dependence", "play_lag", {0.06}, 1.0},
+    {"rate_dependence", "play_lag", {0.06, 0.7}, 1.0},
     {"rate_dependence", "widening", {0.03}, 1.0},
     {"rate_dependence", "diffusion", {0.15, 0.3}, 1.0},
     {"rate_dependence", "excess", {0.15, 0.3}, 1.0},

@@ -184,10 +184,11 @@ static void start_plays(plant_t* plant, double v)
     plant->command = v;
 }
 
-static void move_play(const plant_t* plant, double* w, double low, double high)
+static void move_play(const plant_t* plant, double r, double* w, double low, double high)
 {
     if (by(plant, "rate_dependence", "play_lag")) {
-        *w += plant->dt / plant->p[0] * (clamp(*w, low, high) - *w);
+        const double tau = plant->p[0] * (1 + plant->p[1] * r / plant->model->radius[PLAYS - 1]);
+        *w += plant->dt / tau * (clamp(*w, low, high) - *w);
     } else {
         *w = clamp(*w, low, high);
     }
@@ -214,7 +215,7 @@ static double plays(plant_t* plant, double command, double temperature)
     plant->sum = 0;
     for (size_t j = 0; j < PLAYS; ++j) {
         const double r = model->radius[j] + extra;
-        move_play(plant, &plant->w[j], tanh(model->ascending.slope * v + model->ascending.shift) - r,
+        move_play(plant, r, &plant->w[j], tanh(model->ascending.slope * v + model->ascending.shift) - r,
                   tanh(model->descending.slope * v + model->descending.shift) + r);
         plant->sum += model->weight[j] * plant->w[j];
     }
