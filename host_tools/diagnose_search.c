@@ -230,6 +230,15 @@ static void try_other_mechanisms(const candidates_t* c, const extension_t* e, hy
     }
 }
 
+/// The same effects as another search found them.
+static void adopt(hypothesis_t* hypothesis, const hypothesis_t* found, const gap_t* gap)
+{
+    memcpy(hypothesis->use, found->use, sizeof hypothesis->use);
+    hypothesis->fit_rmse = found->fit_rmse;
+    hypothesis->is_another = found->is_another;
+    hypothesis_predict(hypothesis, gap);
+}
+
 /// Further from there and from all starts.
 static void refine(void* context, size_t index)
 {
@@ -241,10 +250,7 @@ static void refine(void* context, size_t index)
     hypothesis_fit(&brief, gap, -1, evaluations_of(&brief));
     hypothesis_search(hypothesis, gap, false, evaluations_of(hypothesis));
     if (is_better_mechanism(&brief, hypothesis)) {
-        memcpy(hypothesis->use, brief.use, sizeof hypothesis->use);
-        hypothesis->fit_rmse = brief.fit_rmse;
-        hypothesis->is_another = brief.is_another;
-        hypothesis_predict(hypothesis, gap);
+        adopt(hypothesis, &brief, gap);
     }
 }
 
@@ -286,10 +292,7 @@ static void refit_parts(candidates_t* c, size_t first)
             if (own != NULL && own->num_uses > 0) {
                 hypothesis_fit(&part, c->gap, -1, brief_evaluations(&part));
                 if (hypothesis_mean_square(&part) < hypothesis_mean_square(own)) {
-                    memcpy(own->use, part.use, sizeof own->use);
-                    own->fit_rmse = part.fit_rmse;
-                    own->is_another = part.is_another;
-                    hypothesis_predict(own, c->gap);
+                    adopt(own, &part, c->gap);
                 }
             }
         }
