@@ -114,14 +114,18 @@ static void mind_scope(const work_t* w, diagnosis_t* d)
     }
 }
 
-/// What was found outside the catalogue can be named once it is measured.
+/// What was found outside the catalogue, or cannot be told from the verdict, can be named once it is
+/// measured.
 static void mind_outside(diagnosis_t* d)
 {
     const char* looks = hypothesis_outside(d->cause[0].hypothesis);
+    for (size_t k = 0; looks == NULL && k < d->num_indistinguishable; k++) {
+        looks = hypothesis_outside(d->cause[d->indistinguishable[k]].hypothesis);
+    }
     if (looks != NULL) {
         const size_t length = strlen(d->advice);
         snprintf(d->advice + length, sizeof d->advice - length,
-                 "%sit looks like %s: record the temperature as a column and diagnose again",
+                 "%sit may be %s: record the temperature as a column and diagnose again",
                  length > 0 ? "; then " : "", looks);
     }
 }
@@ -129,7 +133,9 @@ static void mind_outside(diagnosis_t* d)
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
-    if (d->is_none || d->num_causes < 2 || (d->confident && d->num_indistinguishable == 0)) {
+    if (d->is_none || d->num_causes < 2 || hypothesis_outside(d->cause[0].hypothesis) != NULL ||
+        hypothesis_outside(d->cause[1].hypothesis) != NULL ||
+        (d->confident && d->num_indistinguishable == 0)) {
         return;
     }
     d->next = next_input_find(&w->gap, d->cause[0].hypothesis, d->cause[1].hypothesis);

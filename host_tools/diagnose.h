@@ -53,7 +53,7 @@ typedef struct {
     double structure; ///< part of the remaining gap that a flexible predictor still finds, held out
     size_t num_indistinguishable;
     size_t indistinguishable[8]; ///< indices into cause
-    char advice[400];
+    char advice[800];
     next_input_t next; ///< the experiment that the advice names; no samples where there is none
 } diagnosis_t;
 

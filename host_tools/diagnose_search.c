@@ -267,12 +267,24 @@ static void add_best(candidates_t* c, extension_t* extension, size_t count, para
     parallel_for(num_refined, c->num_threads, refine, &extensions, long_one);
 }
 
-/// The one that names the same, or NULL.
-static hypothesis_t* same_as(candidates_t* c, const hypothesis_t* named)
+static bool has_mechanism(const hypothesis_t* hypothesis, const effect_use_t* use)
+{
+    bool found = false;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        found = found || hypothesis->use[i].effect == use->effect;
+    }
+    return found;
+}
+
+/// The one of the same mechanisms, or NULL.
+static hypothesis_t* same_as(candidates_t* c, const hypothesis_t* wanted)
 {
     for (size_t i = 0; i < c->count; i++) {
-        const hypothesis_t* h = &c->hypothesis[i];
-        if (h->num_uses == named->num_uses && hypothesis_same_names(h, named)) {
+        bool same = hypothesis_same_names(&c->hypothesis[i], wanted);
+        for (size_t k = 0; same && k < wanted->num_uses; k++) {
+            same = has_mechanism(&c->hypothesis[i], &wanted->use[k]);
+        }
+        if (same) {
             return &c->hypothesis[i];
         }
     }

@@ -172,7 +172,11 @@ void shrink_find(const gap_t* gap, const double* plain, bool held_out, const dou
     }
     bind_to_record(gap, cause);
     const size_t count = cause_handed_out(cause, uses);
-    if (held_out && count == cause->hypothesis->num_uses) {
+    bool is_fitted = count == cause->hypothesis->num_uses;
+    for (size_t i = 0; i < count; i++) {
+        is_fitted = is_fitted && uses[i].effect->for_another_record == NULL;
+    }
+    if (held_out && is_fitted) {
         memcpy(left, cause->hypothesis->block_error, sizeof left);
     } else {
         shrink_block_errors(gap, uses, count, left);

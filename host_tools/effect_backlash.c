@@ -82,10 +82,13 @@ static void invert_giving(const effect_run_t* run, const double* parameter, doub
     }
 }
 
+/// In samples: a contact that gives less is at its end within rounding.
+static const double least_give = 1e-9;
+
 static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     (void)column;
-    if (parameter[COMPLIANCE] > 0.0) {
+    if (parameter[COMPLIANCE] > least_give * run->sample_time) {
         invert_giving(run, parameter, series);
         return;
     }

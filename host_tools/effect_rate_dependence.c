@@ -80,8 +80,10 @@ static void configure_lag(const effect_run_t* run, const double* parameter, cons
     (void)run;
     (void)column;
     hysteresis->play_lag += parameter[0];
-    hysteresis->lag_spread = parameter[1];
-    hysteresis->lag_hold = parameter[2];
+    if (parameter[0] > 0.0) {
+        hysteresis->lag_spread = parameter[1];
+        hysteresis->lag_hold = parameter[2];
+    }
 }
 
 static void widening_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)

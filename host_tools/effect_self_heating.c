@@ -3,7 +3,7 @@
 /// hint, and no model is written with it. A search that lacked it would put its slow course down to a drift.
 ///     losses:   tau dq/dt = (dy/dt)^2 - q     dielectric and eddy-current losses
 ///     friction: tau dq/dt = |dy/dt| - q       hysteresis losses: so much for each loop
-///     y' = y_m + exp(-gain q) (y - y_m) + offset q, cool when the record starts
+///     y' = y_m + exp(-gain q) (y - y_m) + offset q, cool when the record starts, |gain q| held to 2
 /// y_m: middle of the model's output between its two saturations. tau >= 0 [s], fitted from a fiftieth to a
 /// quarter of the record: quicker cannot be told from a lag, slower from wear or a drift; gain [1/q], offset
 /// [output/q]. Source: losses as in G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
@@ -56,6 +56,9 @@ static void friction_limits(const effect_run_t* run, size_t parameter, effect_li
     limits_for(run, parameter, mean_rate(run), result);
 }
 
+/// Beyond a factor of e^2 either way nothing is known, and a jump's rate would lead anywhere.
+static const double most_shrink = 2.0;
+
 static void warm(const effect_run_t* run, const double* parameter, bool squared, double* series)
 {
     const double middle = 0.5 * (run->output_min + run->output_max);
@@ -67,7 +70,8 @@ static void warm(const effect_run_t* run, const double* parameter, bool squared,
         const double power = squared ? rate * rate : rate;
         heat = lag_next(lag_step(step, parameter[TAU]), heat, power, power);
         before = series[i];
-        series[i] = middle + exp(-parameter[GAIN] * heat) * (series[i] - middle) + parameter[OFFSET] * heat;
+        const double shrink = fmin(fmax(parameter[GAIN] * heat, -most_shrink), most_shrink);
+        series[i] = middle + exp(-shrink) * (series[i] - middle) + parameter[OFFSET] * heat;
     }
 }
 

@@ -2,7 +2,7 @@
 /// servo valve).
 ///     -rate (1 - asymmetry) <= dv'/dt <= rate (1 + asymmetry); v' goes to v as fast as that
 /// rate > 0 [input/s], fitted between a fiftieth of the record's mean rate and twice its largest, where it
-/// does nothing; asymmetry in (-1, 1) [1], fitted up to 0.6, 0 when left out: a supply that sources another
+/// does nothing; asymmetry in (-1, 1) [1], fitted up to 0.5, 0 when left out: a supply that sources another
 /// current than it sinks.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
@@ -21,7 +21,7 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
     const double mean = run->travel > 0.0 ? run->travel / run->duration : 0.5 * high;
     *result = parameter == RATE
                   ? limits_logarithmic(0.02 * fmin(mean, high), high, high, 0.35 * high, mean, 0.1 * high)
-                  : limits_linear(-0.6, 0.6, 0.0, 0.0, 0.1, -0.1);
+                  : limits_linear(-0.5, 0.5, 0.0, 0.0, 0.1, -0.1);
 }
 
 static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)

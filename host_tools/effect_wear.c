@@ -81,8 +81,8 @@ static double damage_of(double settling, double spans)
     return settled > 0.0 ? spans * (-expm1(-settled) / settled) : spans;
 }
 
-/// Scales the series about the pivot by exp(sign * rate * damage).
-static void scale_response(const effect_run_t* run, const double* parameter, double sign, double* series)
+/// Scales the series about the pivot by exp(-rate * damage).
+static void scale_response(const effect_run_t* run, const double* parameter, double* series)
 {
     const double middle = 0.5 * (run->output_min + run->output_max);
     const double pivot = middle + parameter[PIVOT] * 0.5 * (run->output_max - run->output_min);
@@ -90,7 +90,7 @@ static void scale_response(const effect_run_t* run, const double* parameter, dou
     for (size_t i = 0; i < run->num_samples; ++i) {
         spans += i > 0 ? spans_of(run, parameter, i) : 0.0;
         const double damage = damage_of(parameter[SETTLING], spans);
-        series[i] = pivot + exp(sign * parameter[RATE] * damage) * (series[i] - pivot);
+        series[i] = pivot + exp(-parameter[RATE] * damage) * (series[i] - pivot);
     }
 }
 
@@ -98,14 +98,7 @@ static void apply_response(const effect_run_t* run, const double* parameter, con
                            double* series)
 {
     (void)column;
-    scale_response(run, parameter, -1.0, series);
-}
-
-static void invert_response(const effect_run_t* run, const double* parameter, const double* column,
-                            double* series)
-{
-    (void)column;
-    scale_response(run, parameter, 1.0, series);
+    scale_response(run, parameter, series);
 }
 
 static void configure_amplitude(const effect_run_t* run, const double* parameter, const double* column,
@@ -155,6 +148,6 @@ const effect_t effect_wear_response = {
     .parameter = response_parameters,
     .limits = response_limits,
     .apply = apply_response,
-    .invert = invert_response,
+    .no_inverse = "the fading counts the travel of the very command that is sought",
     .covers = 0.25, // fading that settles at once is a gain
 };
