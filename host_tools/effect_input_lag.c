@@ -59,4 +59,5 @@ const effect_t effect_input_lag = {
     .limits = limits,
     .apply = apply,
     .invert = invert,
+    .covers = 0.25, // a time that grows, and what is between the samples, make it like a delay or another lag
 };
