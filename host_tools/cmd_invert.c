@@ -113,6 +113,7 @@ outcome_t cmd_invert(int argc, const char** argv)
         "middle of the range, for the\n"
         "model's own states the middle of the inputs at which they are at rest. The model's effects are "
         "inverted with\n"
-        "it; one that has no inverse (delay, slew_limit, quantization, widening, wear of the response) is refused."};
+        "it; one that has no inverse (delay, slew_limit, quantization, widening, wear of the response) is "
+        "refused."};
     return model_run(&command, (record_options_t){.needs_output = true}, invert, argc, argv);
 }
