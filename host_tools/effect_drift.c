@@ -100,47 +100,24 @@ static void add_spline(const effect_run_t* run, const double* node, size_t nodes
     }
 }
 
-static void apply_spline(const effect_run_t* run, const double* parameter, const double* column,
-                         double* series)
-{
-    (void)column;
-    add_spline(run, parameter, NODES, 1.0, series);
-}
+/// apply and invert of a spline with so many nodes.
+#define SPLINE(kind, nodes)                                                                                  \
+    static void apply_##kind(const effect_run_t* run, const double* parameter, const double* column,         \
+                             double* series)                                                                 \
+    {                                                                                                        \
+        (void)column;                                                                                        \
+        add_spline(run, parameter, nodes, 1.0, series);                                                      \
+    }                                                                                                        \
+    static void invert_##kind(const effect_run_t* run, const double* parameter, const double* column,        \
+                              double* series)                                                                \
+    {                                                                                                        \
+        (void)column;                                                                                        \
+        add_spline(run, parameter, nodes, -1.0, series);                                                     \
+    }
 
-static void invert_spline(const effect_run_t* run, const double* parameter, const double* column,
-                          double* series)
-{
-    (void)column;
-    add_spline(run, parameter, NODES, -1.0, series);
-}
-
-static void apply_fine_spline(const effect_run_t* run, const double* parameter, const double* column,
-                              double* series)
-{
-    (void)column;
-    add_spline(run, parameter, FINE_NODES, 1.0, series);
-}
-
-static void invert_fine_spline(const effect_run_t* run, const double* parameter, const double* column,
-                               double* series)
-{
-    (void)column;
-    add_spline(run, parameter, FINE_NODES, -1.0, series);
-}
-
-static void apply_finest_spline(const effect_run_t* run, const double* parameter, const double* column,
-                                double* series)
-{
-    (void)column;
-    add_spline(run, parameter, FINEST_NODES, 1.0, series);
-}
-
-static void invert_finest_spline(const effect_run_t* run, const double* parameter, const double* column,
-                                 double* series)
-{
-    (void)column;
-    add_spline(run, parameter, FINEST_NODES, -1.0, series);
-}
+SPLINE(spline, NODES)
+SPLINE(fine_spline, FINE_NODES)
+SPLINE(finest_spline, FINEST_NODES)
 
 const effect_t effect_drift_linear = {
     .name = "drift",

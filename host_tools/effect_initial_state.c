@@ -1,10 +1,9 @@
 /// initial_state: the memory at the record's start is not the model's; gone once wiped out.
-///     (no mechanism): w_j(0) moves from the run's own start towards its strip's top (f > 0) or bottom (f <
-///     0)
-///                     by the part |f|; f1 ... f6 in [-1, 1]: f over the radii, linear between six even nodes
-///                     from the smallest to the largest
+///     unnamed: w_j(0) moves from the run's own start towards its strip's top (f > 0) or bottom (f < 0) by
+///              the part |f|; f1 ... f6 in [-1, 1]: f over the radii, linear between six even nodes from the
+///              smallest to the largest. For model files only
 ///     turning_points: between the run's own start and the first sample the input went to turn_1 ... turn_4
-///                     [input], one after the other
+///              [input], one after the other
 /// Either way the states stay 1-Lipschitz in the radius (Zhang et al. 2015, section 2), as every memory is.
 /// A past leaves nothing but its dominant turning points (wiping-out), of which searches look for the first
 /// four; a smaller loop left out moves only the plays below its half width. Holds for this record alone.

@@ -125,7 +125,7 @@ const effect_t effect_rate_dependence_play_lag = {
     .limits = play_lag_limits,
     .has_threshold = true,
     .configure = configure_lag,
-    .covers = 0.25,
+    .covers = 0.25, // as an input_lag's: spread and hold make it like another lag
 };
 
 const effect_t effect_rate_dependence_widening = {

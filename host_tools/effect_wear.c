@@ -81,9 +81,10 @@ static double damage_of(double settling, double spans)
     return settled > 0.0 ? spans * (-expm1(-settled) / settled) : spans;
 }
 
-/// Scales the series about the pivot by exp(-rate * damage).
-static void scale_response(const effect_run_t* run, const double* parameter, double* series)
+static void apply_response(const effect_run_t* run, const double* parameter, const double* column,
+                           double* series)
 {
+    (void)column;
     const double middle = 0.5 * (run->output_min + run->output_max);
     const double pivot = middle + parameter[PIVOT] * 0.5 * (run->output_max - run->output_min);
     double spans = 0.0;
@@ -92,13 +93,6 @@ static void scale_response(const effect_run_t* run, const double* parameter, dou
         const double damage = damage_of(parameter[SETTLING], spans);
         series[i] = pivot + exp(-parameter[RATE] * damage) * (series[i] - pivot);
     }
-}
-
-static void apply_response(const effect_run_t* run, const double* parameter, const double* column,
-                           double* series)
-{
-    (void)column;
-    scale_response(run, parameter, series);
 }
 
 static void configure_amplitude(const effect_run_t* run, const double* parameter, const double* column,

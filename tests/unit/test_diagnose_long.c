@@ -1,3 +1,4 @@
+#include "classical_model.h"
 #include "diagnose.h"
 #include "effect_catalogue.h"
 #include "random.h"
@@ -20,15 +21,7 @@ static const double noise = 0.01;
 
 void setUp(void)
 {
-    model = model_new("plant");
-    model.input_max = 10;
-    curve_free(&model.nonhysteretic);
-    model.nonhysteretic = curve_linear(0.5, 1);
-    model_set_num_plays(&model, PLAYS);
-    for (size_t j = 0; j < PLAYS; j++) {
-        model.radius[j] = 0.5 * (double)(j + 1);
-        model.weight[j] = 0.3 / (double)(j + 1);
-    }
+    model = classical_model_of_falling_weights(PLAYS);
     record =
         (record_t){.path = path, .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
     diagnosis = (diagnosis_t){0};

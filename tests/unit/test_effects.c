@@ -305,6 +305,33 @@ static void a_held_lag_is_a_sampled_filter(void)
     }
 }
 
+/// So are viscous plays that are held: each sample moves a play by 1 - exp(-h / tau_j) of the way to where
+/// the strip of that sample would put it.
+static void held_viscous_plays_are_sampled_filters(void)
+{
+    const double tau = 0.02;
+    const double spread = 0.7;
+    const effect_use_t use =
+        effect_case_use(&(effect_case_t){"rate_dependence", "play_lag", {tau, spread, 1.0}, 1.0});
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    reference_t start = reference_new(&model, START_NEGATIVE_SATURATION, record.input[0]);
+    for (size_t i = 1; i < run.num_samples; ++i) {
+        const double v = record.input[i];
+        const double low = curve_value(&model.ascending, v);
+        const double high = curve_value(&model.descending, v);
+        double y = curve_value(&model.nonhysteretic, v);
+        for (size_t j = 0; j < model.num_plays; ++j) {
+            const double r = model.radius[j];
+            const double slow = tau * (1.0 + spread * r / model.radius[model.num_plays - 1]);
+            const double target = fmin(fmax(start.memory[j], low - r), high + r);
+            start.memory[j] += -expm1(-(run.time[i] - run.time[i - 1]) / slow) * (target - start.memory[j]);
+            y += model.weight[j] * start.memory[j];
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, y, output[i]);
+    }
+    reference_free(&start);
+}
+
 /// Without a reference the column counts from its first value, with one from there.
 static void the_reference_shifts_the_column(void)
 {
@@ -397,6 +424,7 @@ int main(void)
     RUN_TEST(a_mean_field_acts_beside_another_start);
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);
+    RUN_TEST(held_viscous_plays_are_sampled_filters);
     RUN_TEST(the_reference_shifts_the_column);
     RUN_TEST(order_is_the_catalogue_s);
     RUN_TEST(inverse_gives_the_wanted_output);
