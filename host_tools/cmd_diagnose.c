@@ -117,6 +117,24 @@ static double realised(const trial_t* trial)
     return trial->before > 0 ? 1 - trial->after / trial->before : 0;
 }
 
+static json_t* trial_to_json(const trial_t* trial)
+{
+    return trial->is_measured
+               ? json_pack("{s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after", trial->after,
+                           "shrink", realised(trial), "predicted_shrink", trial->predicted)
+               : json_pack("{s:f}", "predicted_shrink", trial->predicted);
+}
+
+static void print_trial(const trial_t* trial)
+{
+    if (trial->is_measured) {
+        printf("test: rmse %.6g before, %.6g after, shrink %.0f %% (for this input %.0f %% were predicted)\n",
+               trial->before, trial->after, 100 * realised(trial), 100 * trial->predicted);
+    } else {
+        printf("test: for this input a shrink of %.0f %% is predicted\n", 100 * trial->predicted);
+    }
+}
+
 static outcome_t run_trial(const options_t* given, const model_t* model, start_t start,
                            const record_t* record, const diagnosis_t* d, trial_t* trial)
 {
@@ -124,8 +142,7 @@ static outcome_t run_trial(const options_t* given, const model_t* model, start_t
     outcome_t outcome = record_read(given->test,
                                     &(record_options_t){.columns = given->columns,
                                                         .sample_rate = given->sample_rate,
-                                                        .needs_input = true,
-                                                        .needs_output = true},
+                                                        .needs_input = true},
                                     &test);
     if (outcome == OUTCOME_OK) {
         outcome = trial_run(model, start, d, record, &test, trial);
@@ -158,12 +175,8 @@ static outcome_t findings_json(const findings_t* found, json_t** object)
 {
     *object = diagnosis_to_json(&found->diagnosis);
     bool is_whole = *object != NULL;
-    const trial_t* trial = &found->trial;
     if (is_whole && found->has_trial) {
-        is_whole = json_object_set_new(*object, "test",
-                                       json_pack("{s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after",
-                                                 trial->after, "shrink", realised(trial), "predicted_shrink",
-                                                 trial->predicted)) == 0;
+        is_whole = json_object_set_new(*object, "test", trial_to_json(&found->trial)) == 0;
     }
     if (is_whole && found->has_budget) {
         const budget_t* budget = &found->budget;
@@ -206,9 +219,7 @@ static void print_findings(const options_t* given, const model_t* model, const f
     }
     print_report(&found->diagnosis, model);
     if (found->has_trial) {
-        printf("test: rmse %.6g before, %.6g after, shrink %.0f %% (for this input %.0f %% were predicted)\n",
-               found->trial.before, found->trial.after, 100 * realised(&found->trial),
-               100 * found->trial.predicted);
+        print_trial(&found->trial);
     }
     if (found->has_budget) {
         print_budget(&found->budget);
@@ -346,7 +357,7 @@ outcome_t cmd_diagnose(int argc, const char** argv)
         {"calibration", 0, POPT_ARG_STRING, &given.calibration, 0, "the record the model was identified from",
          "RECORD"},
         {"test", 0, POPT_ARG_STRING, &given.test, 0,
-         "another record: the realised shrink beside the predicted one", "RECORD"},
+         "another record: the realised shrink beside the predicted one; without an output, the predicted one", "RECORD"},
         {"next-input", 0, POPT_ARG_STRING, &given.next_input, 0,
          "writes the experiment that the advice names", "RECORD"},
         {"report", 0, POPT_ARG_STRING, &given.report, 0,

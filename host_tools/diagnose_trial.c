@@ -10,7 +10,7 @@ typedef struct {
     double before, after, added;
 } squares_t;
 
-/// Over the samples from `first` on.
+/// Over the samples from `first` on. Of a record without an output: what the effects add alone.
 static squares_t squares_over(const model_t* model, start_t start, const record_t* record, size_t first,
                               const effect_use_t* uses, size_t num_uses)
 {
@@ -20,10 +20,11 @@ static squares_t squares_over(const model_t* model, start_t start, const record_
     double* augmented = xmalloc(n * sizeof *augmented);
     effect_simulate(&run, model, start, NULL, 0, plain);
     effect_simulate(&run, model, start, uses, num_uses, augmented);
-    const double* measured = record->output + first;
-    const squares_t squares = {series_mean_square(plain + first, measured, n - first),
-                               series_mean_square(augmented + first, measured, n - first),
-                               series_mean_square(augmented + first, plain + first, n - first)};
+    squares_t squares = {.added = series_mean_square(augmented + first, plain + first, n - first)};
+    if (record->output != NULL) {
+        squares.before = series_mean_square(plain + first, record->output + first, n - first);
+        squares.after = series_mean_square(augmented + first, record->output + first, n - first);
+    }
     free(plain);
     free(augmented);
     effect_run_free(&run);
@@ -54,6 +55,9 @@ outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diag
     const squares_t here = squares_over(model, start, record, diagnosis->scope.first_judged, uses, num_uses);
     const size_t first = scope_of(model, NULL, test).first_judged;
     const squares_t there = squares_over(model, start, test, first, uses, num_uses);
-    *trial = (trial_t){sqrt(there.before), sqrt(there.after), predict(&here, there.added)};
+    *trial = (trial_t){.is_measured = test->output != NULL,
+                       .before = sqrt(there.before),
+                       .after = sqrt(there.after),
+                       .predicted = predict(&here, there.added)};
     return OUTCOME_OK;
 }

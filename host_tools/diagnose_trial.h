@@ -1,10 +1,11 @@
-/// The verdict on a record that the diagnosis has not seen.
+/// The verdict on a record that the diagnosis has not seen, or on work that is only planned.
 #ifndef HYST_HOST_DIAGNOSE_TRIAL_H
 #define HYST_HOST_DIAGNOSE_TRIAL_H
 
 #include "diagnose.h"
 
 typedef struct {
+    bool is_measured;     ///< whether the test record has an output; else before and after are 0
     double before, after; ///< RMSE of the plain and of the augmented model over what of the test record is
                           ///< judged (diagnose_scope.h)
     double predicted;     ///< shrink expected for the test record's input, its output not looked at

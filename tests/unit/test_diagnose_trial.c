@@ -76,6 +76,21 @@ static void test_shrink_is_predicted_for_other_work(void)
     TEST_ASSERT_DOUBLE_WITHIN(bound, 1 - left, trial.predicted);
 }
 
+/// Work that is only planned has no output: what is predicted of it is what was predicted of the same work
+/// measured, to the bit.
+static void test_planned_work_needs_no_output(void)
+{
+    const effect_use_t lag = {.effect = &effect_output_lag, .parameter = {0.05}};
+    const trial_t measured = try_on_fast_work(&lag);
+    fast.record.output = NULL;
+    const trial_t planned = try_on_fast_work(&lag);
+    TEST_ASSERT_TRUE(measured.is_measured);
+    TEST_ASSERT_FALSE(planned.is_measured);
+    TEST_ASSERT_EQUAL_DOUBLE(measured.predicted, planned.predicted);
+    TEST_ASSERT_EQUAL_DOUBLE(0, planned.before);
+    TEST_ASSERT_EQUAL_DOUBLE(0, planned.after);
+}
+
 /// A course that this plant does not have is run with the rest, as `simulate` runs the written model.
 static void test_drift_is_tried_as_written(void)
 {
@@ -118,6 +133,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_shrink_is_predicted_for_other_work);
+    RUN_TEST(test_planned_work_needs_no_output);
     RUN_TEST(test_drift_is_tried_as_written);
     RUN_TEST(test_a_start_that_is_left_out_is_not_judged);
     RUN_TEST(test_missing_column_is_refused);

@@ -136,7 +136,7 @@ def row_for(card, verdict, confident):
     return {"kind": card["kind"], "body": card["body"], "samples": card["samples"], "coloured": card["coloured"],
             "size": min(card["sizes"], default=0.0), "truth": truth, "verdict": verdict, "right": right, "in_set": right,
             "confident": confident, "confident_wrong": confident and not right, "set_size": 1, "error": None,
-            "probability": 0.97, "predicted": [0.8, 0.7, 0.9], "realised": 0.8, "transferable": True, "closed": 0.99,
+            "probability": 0.97, "predicted": [0.8, 0.7, 0.9], "predicted_planned": 0.8, "realised": 0.8, "transferable": True, "closed": 0.99,
             "test_before": 1.0, "test_after": 0.2, "where_error": 0.01, "diagnose_s": 1.0, "identified": 0.01}
 
 

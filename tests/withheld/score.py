@@ -68,6 +68,7 @@ def distances(rows):
     visible = classes(rows)["visible"]
     # Whether the forecast of a wrong verdict came true is part of the question; only what cannot carry over is left out.
     told = [dict(r, miss=abs(r["predicted"][0] - r["realised"]),
+                 miss_planned=abs(r["predicted_planned"] - r["realised"]),
                  covered=r["predicted"][1] <= r["realised"] <= r["predicted"][2])
             for r in visible if r.get("predicted") and r.get("realised") is not None and r["transferable"]]
     plays, others = ([r for r in visible if (r["body"] == "plays") == own] for own in (True, False))
@@ -76,6 +77,8 @@ def distances(rows):
     return {
         "plays_shrink_error": _median([r["miss"] for r in told if r["body"] == "plays"]),
         "bodies_shrink_error": _median([r["miss"] for r in told if r["body"] != "plays"]),
+        "plays_planned_error": _median([r["miss_planned"] for r in told if r["body"] == "plays"]),
+        "bodies_planned_error": _median([r["miss_planned"] for r in told if r["body"] != "plays"]),
         "shrink_covered": _rate(told, "covered"),
         "plays_closed": _median([r.get("closed") for r in plays]),
         "bodies_closed": _median([r.get("closed") for r in others]),

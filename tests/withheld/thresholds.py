@@ -25,6 +25,8 @@ LIMITS = (
     ("calibration_error", "mean |probability - share right|", "max", 0.1),
     ("plays_shrink_error", "plays: median |predicted - realised shrink|", "max", 0.01),
     ("bodies_shrink_error", "bodies: median |predicted - realised shrink|", "max", 0.05),
+    ("plays_planned_error", "plays: the same, predicted for the unseen record's own input", "max", 0.01),
+    ("bodies_planned_error", "bodies: the same, predicted for the unseen record's own input", "max", 0.05),
     ("shrink_covered", "realised shrink inside the 90 % interval", "min", 0.85),
     ("plays_closed", "plays: median share of the closable gap closed on the unseen record", "min", 0.95),
     ("bodies_closed", "bodies: the same", "min", 0.85),

@@ -40,18 +40,29 @@ def prediction(hyst, model, record, out, options):
     return read_csv(out)["output"]
 
 
+def write_planned(test, path):
+    """The unseen record without its output: the work that is planned, whose shrink is to be foretold."""
+    with open(test, encoding="utf-8") as file:
+        rows = [line.rstrip("\n").split(",") for line in file]
+    kept = [k for k, name in enumerate(rows[0]) if name != "output"]
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(",".join(row[k] for k in kept) + "\n" for row in rows)
+
+
 def run_trial(hyst, folder, work, options=()):
     """Everything the scoreboard needs of one case folder; `options` go to every verb (a sample rate, columns)."""
     os.makedirs(work, exist_ok=True)
     model, richer = os.path.join(work, "model.json"), os.path.join(work, "augmented.json")
     calibration, record, test = (os.path.join(folder, name + ".csv") for name in ("calibration", "record", "test"))
+    planned = os.path.join(work, "planned.csv")
+    write_planned(test, planned)
     out = {"error": None}
     try:
         fit, out["identify_s"] = call(hyst, "identify", calibration, "-o", model, "--json", "--quiet", *options)
         out["identified"] = json.loads(fit)["relative"]
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         text, out["diagnose_s"] = call(hyst, "diagnose", model, record, "--json", "--quiet", "--calibration",
-                                       calibration, "-o", richer, *options)
+                                       calibration, "--test", planned, "-o", richer, *options)
         out["diagnose_cpu_s"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         with open(os.path.join(work, "diagnosis.json"), "w", encoding="utf-8") as file:
             file.write(text)

@@ -34,6 +34,7 @@ def judge(result, truth):
     row["probability"] = own[0]["probability"] if own else None
     if own and own[0].get("transferable", True) and verdict["effects"] not in ([], ["unknown"]):
         row["predicted"] = [own[0][key] for key in ("shrink", "shrink_low", "shrink_high")]
+        row["predicted_planned"] = result["diagnosis"]["test"]["predicted_shrink"]
     row["advice"] = verdict.get("advice", "")
     return row
 
