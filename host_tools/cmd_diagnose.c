@@ -139,11 +139,11 @@ static outcome_t run_trial(const options_t* given, const model_t* model, start_t
                            const record_t* record, const diagnosis_t* d, trial_t* trial)
 {
     record_t test = {0};
-    outcome_t outcome = record_read(given->test,
-                                    &(record_options_t){.columns = given->columns,
-                                                        .sample_rate = given->sample_rate,
-                                                        .needs_input = true},
-                                    &test);
+    outcome_t outcome =
+        record_read(given->test,
+                    &(record_options_t){
+                        .columns = given->columns, .sample_rate = given->sample_rate, .needs_input = true},
+                    &test);
     if (outcome == OUTCOME_OK) {
         outcome = trial_run(model, start, d, record, &test, trial);
     }
@@ -357,7 +357,8 @@ outcome_t cmd_diagnose(int argc, const char** argv)
         {"calibration", 0, POPT_ARG_STRING, &given.calibration, 0, "the record the model was identified from",
          "RECORD"},
         {"test", 0, POPT_ARG_STRING, &given.test, 0,
-         "another record: the realised shrink beside the predicted one; without an output, the predicted one", "RECORD"},
+         "another record: the realised shrink beside the predicted one; without an output, the predicted one",
+         "RECORD"},
         {"next-input", 0, POPT_ARG_STRING, &given.next_input, 0,
          "writes the experiment that the advice names", "RECORD"},
         {"report", 0, POPT_ARG_STRING, &given.report, 0,

@@ -9,7 +9,10 @@
 #include <string.h>
 
 enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
-enum { ITERATIONS = 20, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6 };
+enum { ITERATIONS = 20, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6, MOST_FURTHER = 3 };
+
+/// A fit this much above what it contains has not yet arrived; below, there is nothing to arrive at.
+static const double hardly_worse = 1.001;
 
 static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
 {
@@ -199,6 +202,14 @@ static void fit_briefly(const candidates_t* c, hypothesis_t* trial, hypothesis_t
     *best = by_mean_square(trial, best) < 0 ? *trial : *best;
 }
 
+/// With one effect more no record is met worse: a fit that says so was cut short, and goes on.
+static void go_on_while_worse(const candidates_t* c, extension_t* e)
+{
+    for (int more = 0; more < MOST_FURTHER && e->fitted.fit_rmse > hardly_worse * e->base->fit_rmse; more++) {
+        hypothesis_fit(&e->fitted, c->gap, -1, brief_evaluations(&e->fitted));
+    }
+}
+
 /// Briefly: from what each was alone, and from starts, since beside the others the further effect may be of
 /// another size or mechanism than alone.
 static void try_extension(void* context, size_t index)
@@ -214,6 +225,7 @@ static void try_extension(void* context, size_t index)
     if (promising.use[e->base->num_uses].effect != first.use[e->base->num_uses].effect) {
         fit_briefly(c, &promising, &e->fitted);
     }
+    go_on_while_worse(c, e);
 }
 
 /// Which mechanism of a name fits best beside another effect need not be the one that did alone.

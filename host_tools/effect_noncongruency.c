@@ -6,17 +6,17 @@
 /// and two that leave the middle m(v) of the major loop alone, which the calibration already shows:
 ///     remanence_field:     the plays see v + field * half range * (y - m(v)) / half span: a mean field of
 ///                          the remanent part of the output alone
-///     remanence_stiffness: y' = y + stiffness * d(v) (y - m(v)): a reversible response whose steepness goes
-///                          with the remanence
+///     remanence_stiffness: y' = y + (stiffness * level + even * (level^2 - 1) + odd * (level^3 - level))
+///                          (y - m(v)): a reversible response whose steepness goes with the remanence, its
+///                          course smooth in the input; even and odd are 0 when left out
 /// S: the plays' weighted sum, S_m and S_h the middle and half of its span between the saturations, y the
-/// output, half span that of its range between them, level(v) from -1 to 1 over the model's input range, d(v)
-/// the nonhysteretic part likewise from -1 to 1 (level(v) where it is constant). level_gain in (-1, 1),
-/// moving and field in [-1, 1], stiffness in [-10, 10] [1]; above 1 the loop runs the other way round at one
-/// end. Inverse: by halving, sample by sample, where the output rises with the input (a field's factor times
-/// the loop's relative steepness below 1). Sources: I. D. Mayergoyz, Mathematical Models of Hysteresis, 1991,
-/// ch. II (input-dependent model); E. Della Torre, IEEE Trans. Audio 14 (1966) 86 (moving model); E. Della
-/// Torre, J. Oti, G. Kadar, IEEE Trans. Magn. 26 (1990) 3052 (reversible part that depends on the
-/// irreversible one).
+/// output, half span that of its range between them, level(v) from -1 to 1 over the model's input range.
+/// level_gain in (-1, 1), moving and field in [-1, 1], stiffness, even and odd in [-10, 10] [1]; above 1 the
+/// loop runs the other way round at one end. Inverse: by halving, sample by sample, where the output rises
+/// with the input (a field's factor times the loop's relative steepness below 1). Sources: I. D. Mayergoyz,
+/// Mathematical Models of Hysteresis, 1991, ch. II (input-dependent model); E. Della Torre, IEEE Trans. Audio
+/// 14 (1966) 86 (moving model); E. Della Torre, J. Oti, G. Kadar, IEEE Trans. Magn. 26 (1990) 3052
+/// (reversible part that depends on the irreversible one).
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
@@ -26,7 +26,13 @@ static const effect_parameter_t moving_parameter[] = {{"moving", "1", .least = -
 
 static const effect_parameter_t field_parameter[] = {{"field", "1", .least = -1.0, .most = 1.0}};
 
-static const effect_parameter_t stiffness_parameter[] = {{"stiffness", "1", .least = -10.0, .most = 10.0}};
+enum { STIFFNESS, EVEN, ODD };
+
+static const effect_parameter_t stiffness_parameters[] = {
+    [STIFFNESS] = {"stiffness", "1", .least = -10.0, .most = 10.0},
+    [EVEN] = {"even", "1", .least = -10.0, .most = 10.0, .optional = true},
+    [ODD] = {"odd", "1", .least = -10.0, .most = 10.0, .optional = true},
+};
 
 static void gain_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
@@ -52,8 +58,8 @@ static void field_limits(const effect_run_t* run, size_t parameter, effect_limit
 static void stiffness_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     (void)run;
-    (void)parameter;
-    *result = limits_linear(-2.0, 2.0, 0.0, 0.1, -0.1, 0.5);
+    *result = parameter == STIFFNESS ? limits_linear(-10.0, 10.0, 0.0, 0.1, -0.1, 0.5)
+                                     : limits_linear(-10.0, 10.0, 0.0, 0.0, 0.0, 0.0);
 }
 
 static void configure_product(const effect_run_t* run, const double* parameter, const double* column,
@@ -93,7 +99,9 @@ static void configure_stiffness(const effect_run_t* run, const double* parameter
 {
     (void)run;
     (void)column;
-    hysteresis->remanence_stiffness += parameter[0];
+    hysteresis->remanence_stiffness += parameter[STIFFNESS];
+    hysteresis->stiffness_even += parameter[EVEN];
+    hysteresis->stiffness_odd += parameter[ODD];
 }
 
 const effect_t effect_noncongruency_product = {
@@ -147,8 +155,8 @@ const effect_t effect_noncongruency_remanence_stiffness = {
     .mechanism = "remanence_stiffness",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
-    .num_parameters = COUNT_OF(stiffness_parameter),
-    .parameter = stiffness_parameter,
+    .num_parameters = COUNT_OF(stiffness_parameters),
+    .parameter = stiffness_parameters,
     .limits = stiffness_limits,
     .configure = configure_stiffness,
 };

@@ -33,12 +33,18 @@ void hysteresis_forget_past(hysteresis_t* hysteresis)
     hysteresis->num_turns = 0;
 }
 
+bool hysteresis_is_stiffened(const hysteresis_t* hysteresis)
+{
+    return differs(hysteresis->remanence_stiffness) || differs(hysteresis->stiffness_even) ||
+           differs(hysteresis->stiffness_odd);
+}
+
 bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
 {
     return !differs(hysteresis->play_lag) && !differs(hysteresis->widening) &&
            !differs(hysteresis->level_gain) && !differs(hysteresis->level_product) &&
            !differs(hysteresis->moving) && !differs(hysteresis->wear) && !differs(hysteresis->fade) &&
-           !differs(hysteresis->remanence_field) && !differs(hysteresis->remanence_stiffness) &&
+           !differs(hysteresis->remanence_field) && !hysteresis_is_stiffened(hysteresis) &&
            hysteresis->width == NULL && !hysteresis_has_past(hysteresis);
 }
 
@@ -298,12 +304,14 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     return next;
 }
 
-double hysteresis_stiffened(const hysteresis_t* hysteresis, double v, double y)
+double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model, double v, double y)
 {
-    if (!differs(hysteresis->remanence_stiffness)) {
+    if (!hysteresis_is_stiffened(hysteresis)) {
         return y;
     }
-    const double factor = hysteresis->remanence_stiffness * loop_middle_reversible(hysteresis->middle, v);
+    const double at = level(model, v);
+    const double factor = hysteresis->remanence_stiffness * at +
+                          (at * at - 1.0) * (hysteresis->stiffness_even + at * hysteresis->stiffness_odd);
     return y + factor * (y - loop_middle_at(hysteresis->middle, v));
 }
 
@@ -314,7 +322,7 @@ static double output_at(const hysteresis_state_t* state, double v, const outlook
     if (differs(hysteresis->level_product) || differs(hysteresis->fade)) {
         output += (amplitude_factor(state, v, at->travel) - 1.0) * (at->sum - state->sum_middle);
     }
-    return hysteresis_stiffened(hysteresis, v, output);
+    return hysteresis_stiffened(hysteresis, state->model, v, output);
 }
 
 /// initial_state: each play between its strip's bottom, its own start and its strip's top by a fraction that
@@ -481,7 +489,7 @@ void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, 
     const bool scales = differs(hysteresis->level_gain) || differs(hysteresis->level_product) ||
                         differs(hysteresis->wear) || differs(hysteresis->fade);
     for (size_t i = 0; !scales && i < num_samples; ++i) {
-        nonhysteretic[i] = hysteresis_stiffened(hysteresis, input[i], nonhysteretic[i] + sum[i]);
+        nonhysteretic[i] = hysteresis_stiffened(hysteresis, model, input[i], nonhysteretic[i] + sum[i]);
     }
     if (!scales) {
         return;
@@ -500,7 +508,7 @@ void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, 
         }
         nonhysteretic[i] += sum[i] + correction +
                             (amplitude_factor(&state, input[i], travel) - 1.0) * (sum[i] - state.sum_middle);
-        nonhysteretic[i] = hysteresis_stiffened(hysteresis, input[i], nonhysteretic[i]);
+        nonhysteretic[i] = hysteresis_stiffened(hysteresis, model, input[i], nonhysteretic[i]);
     }
 }
 

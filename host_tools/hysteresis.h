@@ -19,9 +19,10 @@ typedef struct {
         level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
     double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
-    double remanence_field;      ///< the plays see v + remanence_field * half range * the output's remanence
-    double remanence_stiffness;  ///< the output, about the major loop's middle, scales by 1 + this *
-                                 ///< reversible level
+    double remanence_field; ///< the plays see v + remanence_field * half range * the output's remanence
+    /// The output, about the major loop's middle, scales by 1 + remanence_stiffness * level +
+    /// stiffness_even * (level^2 - 1) + stiffness_odd * (level^3 - level).
+    double remanence_stiffness, stiffness_even, stiffness_odd;
     const loop_middle_t* middle; ///< for the two above; NULL where both are 0
     field_t field;               ///< how what the plays see follows the input
     const double* shift; ///< [num_samples] added to what the plays see, where a search knows it; or NULL
@@ -49,8 +50,10 @@ void hysteresis_free(hysteresis_t* hysteresis);
 /// Whether the plays themselves run as in the plain model, only on another input and with
 /// another use of their sum, once the past has turned where it did.
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
-/// What remanence_stiffness makes of an output y at v.
-double hysteresis_stiffened(const hysteresis_t* hysteresis, double v, double y);
+/// Whether the output's slope goes with the remanence.
+bool hysteresis_is_stiffened(const hysteresis_t* hysteresis);
+/// What that makes of an output y at v.
+double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model, double v, double y);
 /// What the plays of such a run see of the input, and what the nonhysteretic part sees of it is
 /// input + share * (field - input): field[num_samples], shift not in it.
 void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,

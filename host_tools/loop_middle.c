@@ -10,7 +10,6 @@ struct loop_middle {
     double input_min, half_range;
     double half_span; ///< of the model's output between its saturations
     double node[CELLS + 1];
-    double reversible[CELLS + 1]; ///< -1 ... 1
 };
 
 /// Both branches in closed form: from a saturation no play has turned, Eq. (6) is one maximum or minimum.
@@ -30,15 +29,6 @@ static double middle_of(const model_t* model, double v)
     return sum;
 }
 
-static double reversible_of(const model_t* model, double v)
-{
-    const double low = curve_value(&model->nonhysteretic, model->input_min);
-    const double high = curve_value(&model->nonhysteretic, model->input_max);
-    const double part = high > low ? (curve_value(&model->nonhysteretic, v) - low) / (high - low)
-                                   : (v - model->input_min) / (model->input_max - model->input_min);
-    return 2 * part - 1;
-}
-
 loop_middle_t* loop_middle_new(const model_t* model)
 {
     loop_middle_t* middle = xmalloc(sizeof *middle);
@@ -48,7 +38,6 @@ loop_middle_t* loop_middle_new(const model_t* model)
     for (size_t i = 0; i <= CELLS; i++) {
         const double v = model->input_min + 2 * middle->half_range * (double)i / CELLS;
         middle->node[i] = middle_of(model, v);
-        middle->reversible[i] = reversible_of(model, v);
     }
     return middle;
 }
@@ -72,11 +61,6 @@ static double place_of(const loop_middle_t* middle, double v)
 double loop_middle_at(const loop_middle_t* middle, double v)
 {
     return at(middle->node, place_of(middle, v));
-}
-
-double loop_middle_reversible(const loop_middle_t* middle, double v)
-{
-    return fmin(fmax(at(middle->reversible, place_of(middle, v)), -1), 1);
 }
 
 double loop_middle_remanence(const loop_middle_t* middle, double v, double y)

@@ -14,8 +14,5 @@ double loop_middle_at(const loop_middle_t* middle, double v);
 /// The remanent part of an output y at v, y - middle(v), over half of what the model's output spans, -1
 /// ... 1.
 double loop_middle_remanence(const loop_middle_t* middle, double v, double y);
-/// The nonhysteretic part's place between its values at the range's ends, -1 ... 1; v's own place where it is
-/// constant.
-double loop_middle_reversible(const loop_middle_t* middle, double v);
 
 #endif

@@ -33,7 +33,7 @@ static const effect_case_t cases[] = {
     {"noncongruency", "moving", {0.15}, 1.3},
     {"noncongruency", "increment", {0.2}, 1.2},
     {"noncongruency", "remanence_field", {0.15}, 1.3},
-    {"noncongruency", "remanence_stiffness", {0.4}, 0.01},
+    {"noncongruency", "remanence_stiffness", {0.4, 0.1, -0.2}, 0.01},
     {"wear", "amplitude", {0.05}, 0.0},
     {"wear", "increment", {0.05}, 1.0},
     {"wear", "response", {0.05, -0.4, 0.15, 0.4, 2.2}, 1.0},

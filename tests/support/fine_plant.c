@@ -481,7 +481,9 @@ static double material(plant_t* plant, double v, double temperature)
     plant->remanence = above_middle(plant, v, output) / half;
     if (by(plant, "noncongruency", "remanence_stiffness")) {
         const double half_range = (plant->model->input_max - plant->model->input_min) / 2;
-        return output + plant->p[0] * v / half_range * plant->remanence * half;
+        const double x = v / half_range;
+        const double steeper = plant->p[0] * x + plant->p[1] * (x * x - 1) + plant->p[2] * x * (x * x - 1);
+        return output + steeper * plant->remanence * half;
     }
     return output;
 }
