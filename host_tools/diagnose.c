@@ -86,16 +86,18 @@ static void judge_causes(const work_t* w, const diagnosis_t* d)
     }
 }
 
-/// How far each cause shrinks the gap; the verdict hands out nothing where it is not sure and the gap is no
-/// more than the model is known to leave.
+/// How far each cause shrinks the gap; a verdict that is not sure hands out nothing where the gap is no more
+/// than the model is known to leave, and no course of this record.
 static void forecast_causes(const work_t* w, diagnosis_t* d)
 {
     const bool held_out = !has_another_body(w) && !(w->grid.step > 0);
     double* average = xmalloc(w->run.num_samples * sizeof *average);
     shrink_settle(&w->gap, own(w, &d->cause[0]));
     shrink_average(&w->gap, d->cause, d->num_causes, average);
-    for (size_t i = 0; i < HYPOTHESIS_MAX_EFFECTS; i++) {
-        d->cause[0].is_kept_back[i] = !d->confident && !(d->closable > 0);
+    const hypothesis_t* verdict = d->cause[0].hypothesis;
+    for (size_t i = 0; i < verdict->num_uses; i++) {
+        d->cause[0].is_kept_back[i] =
+            !d->confident && (!(d->closable > 0) || !verdict->use[i].effect->transferable);
     }
     for (size_t k = 0; k < d->num_causes; k++) {
         shrink_find(&w->gap, w->plain_error, held_out, k == 0 ? average : NULL, &d->cause[k]);

@@ -81,6 +81,13 @@ static int by_probability(const void* a, const void* b)
 static const double confident_from = 0.87;
 /// What is at least this part as likely as the verdict cannot be told from it.
 static const double in_set_from = 0.15;
+/// Nothing is named that is not this many times as likely as no effect: a false alarm sends somebody after a
+/// fault that is not there, what is passed over stands beside the verdict.
+static const double alarm_from = 6;
+/// Of the energy above the floor, what the best explanation may leave without being unknown, and what it may
+/// leave where a flexible predictor still finds structure in it.
+static const double left_at_most = 0.25;
+static const double structure_left_at_most = 0.15;
 /// In parts of the floor, what may stand above it before anything is unknown: floors are known no better.
 static const double known_to = 1.5;
 
@@ -107,6 +114,18 @@ static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     d->num_causes = d->num_causes < DIAGNOSIS_MOST_CAUSES ? d->num_causes : DIAGNOSIS_MOST_CAUSES;
 }
 
+/// Puts the model alone first where no cause is enough likelier.
+static void mind_alarms(diagnosis_t* d)
+{
+    for (size_t k = 1; k < d->num_causes; k++) {
+        const cause_t cause = d->cause[k];
+        if (cause.hypothesis->num_uses == 0 && alarm_from * cause.probability > d->cause[0].probability) {
+            memmove(&d->cause[1], &d->cause[0], k * sizeof *d->cause);
+            d->cause[0] = cause;
+        }
+    }
+}
+
 /// The part of the residual that a flexible predictor still finds.
 static double structure_left(const gap_t* gap, const hypothesis_t* leader)
 {
@@ -123,16 +142,21 @@ static double structure_left(const gap_t* gap, const hypothesis_t* leader)
 void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
 {
     weigh(scale, c, d);
+    const double likeliest = d->cause[0].probability;
     const hypothesis_t* leader = d->cause[0].hypothesis;
     const double above = above_floor(scale, &c->hypothesis[0]);
     const double left = above > 0 ? above_floor(scale, leader) / above : 0;
     d->structure = structure_left(c->gap, leader);
     const bool is_outside = hypothesis_outside(leader) != NULL;
-    d->is_unknown = is_outside || (above_floor(scale, leader) > known_to * scale->floor &&
-                                   (left > 0.4 || (left > 0.15 && d->structure > 0.3)));
-    d->is_none = leader->num_uses == 0 && !d->is_unknown;
+    d->is_unknown =
+        is_outside || (above_floor(scale, leader) > known_to * scale->floor &&
+                       (left > left_at_most || (left > structure_left_at_most && d->structure > 0.3)));
+    if (!d->is_unknown) {
+        mind_alarms(d);
+    }
+    d->is_none = d->cause[0].hypothesis->num_uses == 0 && !d->is_unknown;
     for (size_t k = 1; k < d->num_causes && d->num_indistinguishable < 8; k++) {
-        if (d->cause[k].probability > in_set_from * d->cause[0].probability && !d->is_unknown) {
+        if (d->cause[k].probability > in_set_from * likeliest && !d->is_unknown) {
             d->indistinguishable[d->num_indistinguishable++] = k;
         }
     }
