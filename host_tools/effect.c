@@ -41,6 +41,7 @@ static const effect_t* const catalogue[] = {
     &effect_periodic_disturbance_run_up,
     &effect_quantization,
     &effect_exogenous,
+    &effect_exogenous_coercive_field,
 };
 
 size_t effect_count(void)

@@ -41,5 +41,6 @@ extern const effect_t effect_periodic_disturbance;
 extern const effect_t effect_periodic_disturbance_run_up;
 extern const effect_t effect_quantization;
 extern const effect_t effect_exogenous;
+extern const effect_t effect_exogenous_coercive_field;
 
 #endif

@@ -1,20 +1,30 @@
 /// exogenous: gain, offset or width follow a measured auxiliary column c (temperature, load, supply
-/// pressure), counted from the value named "reference" or, without it, from the record's first.
-///     q = c (1 + bend c);  radii r_j + width q;  y' = y (1 + gain q) + offset q
+/// pressure), counted from the value named "reference" or, without it, from the record's first. q = c (1 +
+/// bend c), and
+///     y' = y (1 + gain q) + offset q, radii r_j + width q
+///     coercive_field: the hysteretic part sees middle + (v - middle) (1 - coercive q), middle that of the
+///                     model's input range: it takes 1 / (1 - coercive q) as much input to turn it round
 /// gain [1 per column unit], offset [output per column unit], width [envelope units per column unit], bend [1
-/// per column unit]: a material's law to second order, fitted up to |bend c| = 0.6; those left out are 0.
+/// per column unit]: a material's law to second order, fitted up to |bend c| = 0.6; coercive [1 per column
+/// unit]. Those left out are 0.
 /// Inverse: where 1 + gain q <= 0 nothing can be reached.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
 enum { GAIN, OFFSET, WIDTH, BEND };
+enum { COERCIVE, COERCIVE_BEND };
 
 static const effect_parameter_t parameters[] = {
     [GAIN] = {"gain", "1/column", ANY_NUMBER, .optional = true},
     [OFFSET] = {"offset", "output/column", ANY_NUMBER, .optional = true},
     [WIDTH] = {"width", "envelope/column", ANY_NUMBER, .optional = true},
     [BEND] = {"bend", "1/column", ANY_NUMBER, .optional = true},
+};
+
+static const effect_parameter_t coercive_parameters[] = {
+    [COERCIVE] = {"coercive", "1/column", ANY_NUMBER},
+    [COERCIVE_BEND] = {"bend", "1/column", ANY_NUMBER, .optional = true},
 };
 
 /// For a column that goes as far as 1 from its reference; effect_use_limits divides by how far it goes.
@@ -30,15 +40,22 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
     *result = limits_linear(-2.0 * size, 2.0 * size, 0.0, 0.05 * size, -0.05 * size, 0.0);
 }
 
-static double law(const double* parameter, double column)
+static void coercive_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
-    return column * (1.0 + parameter[BEND] * column);
+    (void)run;
+    *result = parameter == COERCIVE_BEND ? limits_linear(-0.6, 0.6, 0.0, 0.1, -0.1, 0.0)
+                                         : limits_linear(-0.9, 0.9, 0.0, 0.03, -0.03, 0.1);
+}
+
+static double law(double bend, double column)
+{
+    return column * (1.0 + bend * column);
 }
 
 static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
-        const double q = law(parameter, column[i]);
+        const double q = law(parameter[BEND], column[i]);
         series[i] = series[i] * (1.0 + parameter[GAIN] * q) + parameter[OFFSET] * q;
     }
 }
@@ -46,7 +63,7 @@ static void apply(const effect_run_t* run, const double* parameter, const double
 static void invert(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
-        const double q = law(parameter, column[i]);
+        const double q = law(parameter[BEND], column[i]);
         const double gain = 1.0 + parameter[GAIN] * q;
         if (gain > 0.0) {
             series[i] = (series[i] - parameter[OFFSET] * q) / gain;
@@ -64,7 +81,21 @@ static void configure(const effect_run_t* run, const double* parameter, const do
         hysteresis->width = xcalloc(run->num_samples, sizeof(double));
     }
     for (size_t i = 0; i < run->num_samples; ++i) {
-        hysteresis->width[i] += parameter[WIDTH] * law(parameter, column[i]);
+        hysteresis->width[i] += parameter[WIDTH] * law(parameter[BEND], column[i]);
+    }
+}
+
+static void configure_coercive(const effect_run_t* run, const double* parameter, const double* column,
+                               hysteresis_t* hysteresis)
+{
+    if (column == NULL || !(fabs(parameter[COERCIVE]) > 0.0)) {
+        return;
+    }
+    if (hysteresis->coercive == NULL) {
+        hysteresis->coercive = xcalloc(run->num_samples, sizeof(double));
+    }
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        hysteresis->coercive[i] += parameter[COERCIVE] * law(parameter[COERCIVE_BEND], column[i]);
     }
 }
 
@@ -80,4 +111,16 @@ const effect_t effect_exogenous = {
     .configure = configure,
     .invert = invert,
     .clips = true,
+};
+
+const effect_t effect_exogenous_coercive_field = {
+    .name = "exogenous",
+    .mechanism = "coercive_field",
+    .stage = EFFECT_HYSTERESIS,
+    .transferable = true,
+    .needs_column = true,
+    .num_parameters = COUNT_OF(coercive_parameters),
+    .parameter = coercive_parameters,
+    .limits = coercive_limits,
+    .configure = configure_coercive,
 };

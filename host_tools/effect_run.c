@@ -213,8 +213,9 @@ static double* seen_of(const effect_run_t* run, const model_t* model, const hyst
         const double own = 1.0 - hysteresis->field.share;
         const double field = nonhysteretic_at(run, model, seen[i]);
         direct[i] = own * (nonhysteretic_at(run, model, drive[i]) - field);
-        if (hysteresis->shift != NULL) {
-            seen[i] += hysteresis->shift[i];
+        if (hysteresis->shift != NULL || hysteresis->coercive != NULL) {
+            seen[i] = hysteresis_seen(hysteresis, model, i, seen[i]);
+            seen[i] += hysteresis->shift != NULL ? hysteresis->shift[i] : 0.0;
             direct[i] += field - nonhysteretic_at(run, model, seen[i]);
         }
     }
@@ -289,6 +290,7 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     }
     hysteresis_t neutral = hysteresis_neutral();
     neutral.field = hysteresis->field;
+    neutral.coercive = hysteresis->coercive;
     neutral.shift = hysteresis->shift;
     double* plain = xmalloc(run->num_samples * sizeof(double));
     double* body = xmalloc(run->num_samples * sizeof(double));

@@ -13,6 +13,7 @@ hysteresis_t hysteresis_neutral(void)
 void hysteresis_free(hysteresis_t* hysteresis)
 {
     free(hysteresis->width);
+    free(hysteresis->coercive);
     *hysteresis = hysteresis_neutral();
 }
 
@@ -51,7 +52,7 @@ bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
 bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
 {
     return hysteresis_sees_alone(hysteresis) && field_is_neutral(&hysteresis->field) &&
-           hysteresis->shift == NULL;
+           hysteresis->coercive == NULL && hysteresis->shift == NULL;
 }
 
 /// The input's place in the model's range, -1 ... 1; beyond the range its end's.
@@ -197,7 +198,8 @@ static void move_plays(const hysteresis_state_t* state, double v, double step, d
 
 /// A command on its way to the plays.
 typedef struct {
-    double command, field;
+    double command;
+    double seen;          ///< before the mean fields
     double nonhysteretic; ///< the nonhysteretic part there
 } approach_t;
 
@@ -210,6 +212,12 @@ static double nonhysteretic_at(const hysteresis_state_t* state, double v, double
                : direct;
 }
 
+double hysteresis_seen(const hysteresis_t* hysteresis, const model_t* model, size_t sample, double field)
+{
+    const double middle = 0.5 * (model->input_min + model->input_max);
+    return hysteresis->coercive != NULL ? field - hysteresis->coercive[sample] * (field - middle) : field;
+}
+
 double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* model, double v, double y)
 {
     const double half_range = 0.5 * (model->input_max - model->input_min);
@@ -220,7 +228,7 @@ double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* 
 static double shift(const hysteresis_state_t* state, const approach_t* to, double sum)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
-    double seen = to->field;
+    double seen = to->seen;
     if (differs(hysteresis->moving) && state->sum_half > 0.0) {
         const double half_range = 0.5 * (state->model->input_max - state->model->input_min);
         const double part = fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
@@ -240,7 +248,7 @@ static double shifted(const hysteresis_state_t* state, const approach_t* to, dou
     enum { ITERATIONS = 30 };
     const model_t* model = state->model;
     if (!differs(state->hysteresis->moving) && !differs(state->hysteresis->remanence_field)) {
-        return to->field;
+        return to->seen;
     }
     const double tolerance = 1e-13 * (model->input_max - model->input_min);
     double* scratch = state->memory + model->num_plays;
@@ -290,7 +298,8 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     double* scratch = state->memory + state->model->num_plays;
     outlook_t next = {.field = field_next(&hysteresis->field, &state->field, v, step)};
     next.nonhysteretic = nonhysteretic_at(state, v, next.field.seen);
-    const approach_t to = {v, next.field.seen, next.nonhysteretic};
+    const approach_t to = {v, hysteresis_seen(hysteresis, state->model, state->sample + 1, next.field.seen),
+                           next.nonhysteretic};
     next.seen = shifted(state, &to, step);
     move_plays(state, next.seen, step, scratch);
     next.travel = state->travel + fabs(v - state->command);
@@ -368,10 +377,11 @@ static reference_t past_of(const model_t* model, start_t start, const hysteresis
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
                                     double first_input)
 {
-    reference_t reference = past_of(model, start, hysteresis, first_input);
+    const double seen = hysteresis_seen(hysteresis, model, 0, first_input);
+    reference_t reference = past_of(model, start, hysteresis, seen);
     hysteresis_state_t state = {.model = model,
                                 .hysteresis = hysteresis,
-                                .input = first_input,
+                                .input = seen,
                                 .command = first_input,
                                 .field = field_start(first_input),
                                 .memory = xcalloc(2 * model->num_plays, sizeof(double))};
@@ -381,7 +391,7 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
         place_plays(&state);
     }
     if (hysteresis->width != NULL) {
-        const strip_t strip = strip_at(model, first_input, hysteresis->width[0]);
+        const strip_t strip = strip_at(model, seen, hysteresis->width[0]);
         for (size_t j = 0; j < model->num_plays; ++j) {
             state.memory[j] = moved(state.memory[j], model->radius[j], &strip, 0, false);
         }

@@ -29,6 +29,8 @@ typedef struct {
     double wear;         ///< the plays' sum moves exp(-wear * travel / input_span) as far
     double fade;         ///< the plays' sum, about its middle, scales by exp(-fade * travel / input_span)
     double* width;       ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
+    double* coercive;    ///< [num_samples] owned: what the plays see, about the range's middle, scales by 1 -
+                         ///< this (exogenous), or NULL
     const double*
         start_fraction; ///< [num_nodes] initial_state: where a play begins, node by node over the radii,
                         ///< between its strip's bottom (-1), the run's own start (0) and its top (1); or NULL
@@ -44,7 +46,7 @@ bool hysteresis_is_neutral(const hysteresis_t* hysteresis);
 bool hysteresis_has_past(const hysteresis_t* hysteresis);
 /// That start again.
 void hysteresis_forget_past(hysteresis_t* hysteresis);
-/// Whether nothing differs but what the plays see (field, shift).
+/// Whether nothing differs but what the plays see (field, coercive, shift).
 bool hysteresis_sees_alone(const hysteresis_t* hysteresis);
 void hysteresis_free(hysteresis_t* hysteresis);
 /// Whether the plays themselves run as in the plain model, only on another input and with
@@ -58,6 +60,8 @@ double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model
 /// input + share * (field - input): field[num_samples], shift not in it.
 void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,
                       size_t num_samples, double* field);
+/// What the plays see at a sample of what the field inside has become, the mean fields not in it.
+double hysteresis_seen(const hysteresis_t* hysteresis, const model_t* model, size_t sample, double field);
 /// What remanence_field adds to what the plays see where the output is y at v.
 double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* model, double v, double y);
 /// The output of such a run whose plays' sums are known: sum[num_samples], nonhysteretic[num_samples],

@@ -200,8 +200,13 @@ static double plays(plant_t* plant, double command, double temperature)
     const model_t* model = plant->model;
     const double half_range = (model->input_max - model->input_min) / 2;
     double v = field_inside(plant, command);
-    double extra =
-        is(plant, "exogenous") ? plant->p[2] * (temperature + plant->p[3] * temperature * temperature) : 0;
+    double extra = 0;
+    if (by(plant, "exogenous", "coercive_field")) {
+        v -= (v - (model->input_max + model->input_min) / 2) * plant->p[0] *
+             (temperature + plant->p[1] * temperature * temperature);
+    } else if (is(plant, "exogenous")) {
+        extra = plant->p[2] * (temperature + plant->p[3] * temperature * temperature);
+    }
     if (by(plant, "noncongruency", "moving")) {
         v += plant->p[0] * half_range * (plant->sum - plant->middle) / plant->half;
     }
@@ -303,7 +308,7 @@ static double body(plant_t* plant, double y, double temperature)
     if (is(plant, "gain_offset")) {
         return p[0] * y + p[1];
     }
-    if (is(plant, "exogenous")) {
+    if (by(plant, "exogenous", "")) {
         const double law = temperature + p[3] * temperature * temperature;
         return y * (1 + p[0] * law) + p[1] * law;
     }

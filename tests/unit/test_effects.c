@@ -335,11 +335,7 @@ static void held_viscous_plays_are_sampled_filters(void)
 /// Without a reference the column counts from its first value, with one from there.
 static void the_reference_shifts_the_column(void)
 {
-    effect_use_t use = effect_case_use(effect_case_at(effect_case_count() - 1));
-    use.parameter[0] = 0.0;
-    use.parameter[1] = 0.5;
-    use.parameter[2] = 0.0;
-    use.parameter[3] = 0.0;
+    effect_use_t use = effect_case_use(&(effect_case_t){"exogenous", NULL, {0.0, 0.5}, 0.0});
     use.has_reference = true;
     use.reference = 18.0;
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
