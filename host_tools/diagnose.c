@@ -53,7 +53,7 @@ static hypothesis_t without_grid(const work_t* w, const hypothesis_t* h)
 
 static bool has_another_body(const work_t* w)
 {
-    return w->run.body != NULL || w->run.correction != NULL;
+    return w->run.body != NULL || w->run.everett != NULL;
 }
 
 /// The cause's hypothesis where the search keeps it.
@@ -198,6 +198,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     effect_run_t run = effect_run_new(w->gap.model, &fitted.record);
     run.fast = w->run.fast;
     run.body = w->run.body;
+    run.everett = w->run.everett;
     gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.record.output, fitted.carried, &nothing,
                         w->gap.filter[0].variance);
     gap.dead_zone = w->gap.dead_zone;
@@ -227,7 +228,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
                             options->calibration_noise, scope_is_known(&w->scope), &w->thinned.record);
         w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
-        w->run.correction = w->body.correction;
+        w->run.everett = w->body.has_everett ? &w->body.everett : NULL;
     }
     w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried,
                      &w->body.nuisance,

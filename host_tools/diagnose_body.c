@@ -11,14 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Of the model's squared misfit, what a Duhem body may leave: it has more free numbers, and where a plant is
-/// of Preisach's kind it fits the loops it has seen and no others.
-static const double clearly_less = 0.8;
-static const double no_more = 1.05;
-/// The same for an element, which has fewer than the model.
+/// Of what a Preisach body leaves, squared, what a Duhem body may leave: it has more free numbers than any
+/// other and fits the loops it has seen; on other work of a plant of Preisach's kind it is several times
+/// worse.
+static const double clearly_less = 0.25;
+/// Of what the model, or a Preisach body, leaves beyond the noise, squared, what an element may leave, which
+/// holds in all loops;
+static const double half = 0.5;
+/// of all that it leaves, where the element is no further from the record than the model by this.
 static const double less_with_few = 0.95;
-/// Of the noise, what an element may leave so that no other body is looked for.
-static const double hardly_more = 1.15;
+static const double no_more = 1.05;
 /// Samples of a long calibration that an element is fitted to.
 static const size_t most_calibrated = 12000;
 /// How much a body may be off on other work, in parts of what it differs from the model by.
@@ -140,6 +142,7 @@ static void try_duhem(body_t* body, const model_t* model, start_t start, const r
                                                  calibration->num_samples, body->noise, &left, precision)};
     if (left * left < clearly_less * body->misfit * body->misfit && is_near(model, start, &found, record)) {
         nuisance_free(&body->nuisance);
+        body->has_everett = false;
         body->stands_in = true;
         body->stand_in = found;
         body->misfit = left;
@@ -169,8 +172,42 @@ static nuisance_t element_nuisance(const body_t* body, const element_record_t* c
     return nuisance;
 }
 
-/// The element of each kind; sets `stand_in`, `misfit`, `doubt` and `nuisance` by one that is taken. From
-/// negative saturation only.
+/// Sets `everett`, `misfit` and `nuisance`.
+static void add_everett(body_t* body, const model_t* model, const record_t* calibration,
+                        const record_t* record)
+{
+    const size_t n = calibration->num_samples;
+    double* precision = xmalloc((size_t)EVERETT_FREE * EVERETT_FREE * sizeof *precision);
+    double* difference = xmalloc(n * sizeof *difference);
+    reference_run(model, START_NEGATIVE_SATURATION, calibration->input, n, difference);
+    for (size_t t = 0; t < n; t++) {
+        difference[t] = calibration->output[t] - difference[t];
+    }
+    const double beyond_noise = body->misfit * body->misfit - body->noise * body->noise;
+    const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n),
+                                    few * sqrt(beyond_noise), body->everett.value, precision);
+    body->everett.input_min = model->input_min;
+    body->everett.input_max = model->input_max;
+    body->has_everett = true;
+    body->misfit = fmin(left, body->misfit);
+    body->doubt = doubt_of_tables;
+    scale(precision, EVERETT_FREE, 1 / (left * left));
+    rows_t rows = {.body = body, .model = model, .input = record->input};
+    body->nuisance = nuisance_new(precision, EVERETT_FREE, record->num_samples, least_energy * left * left,
+                                  everett_rows, &rows);
+    free(precision);
+    free(difference);
+}
+
+/// Without a look at the record, which an effect may have moved further than the bodies differ by.
+static bool explains_bench(const body_t* body, double left)
+{
+    const double noise = body->noise * body->noise;
+    return left * left - noise < half * (body->misfit * body->misfit - noise);
+}
+
+/// The better of both kinds of elements; sets `stand_in`, `misfit`, `doubt` and `nuisance` by one that is
+/// taken. From negative saturation only.
 static void try_elements(body_t* body, const model_t* model, const record_t* calibration,
                          const record_t* record)
 {
@@ -182,58 +219,30 @@ static void try_elements(body_t* body, const model_t* model, const record_t* cal
                                      .input_min = model->input_min,
                                      .input_max = model->input_max,
                                      .noise = body->noise};
-    const double model_misfit = body->misfit;
+    const double other_misfit = body->misfit;
+    double least = HUGE_VAL;
+    stand_in_t best = {.is_element = true};
     for (element_kind_t kind = 0; kind < ELEMENT_KINDS; kind++) {
         double left;
-        const stand_in_t found = {.is_element = true, .element = element_fit(kind, &fitted, &left)};
-        if (left < body->misfit && left * left < less_with_few * model_misfit * model_misfit &&
-            is_near(model, START_NEGATIVE_SATURATION, &found, record)) {
-            body->stands_in = true;
-            body->stand_in = found;
-            body->misfit = left;
-        }
+        const element_t element = element_fit(kind, &fitted, &left);
+        best.element = left < least ? element : best.element;
+        least = fmin(left, least);
+    }
+    if (explains_bench(body, least) || (least * least < less_with_few * other_misfit * other_misfit &&
+                                        is_near(model, START_NEGATIVE_SATURATION, &best, record))) {
+        nuisance_free(&body->nuisance);
+        body->has_everett = false;
+        body->stands_in = true;
+        body->stand_in = best;
+        body->misfit = least;
     }
     if (body->stands_in) {
         const double missed = fmax(body->misfit * body->misfit - body->noise * body->noise, 0);
-        body->doubt = missed / (model_misfit * model_misfit - body->misfit * body->misfit) + doubt_of_element;
+        body->doubt = missed / (other_misfit * other_misfit - body->misfit * body->misfit) + doubt_of_element;
         const double errors = errors_of(body, model, START_NEGATIVE_SATURATION, &thinned.record);
         body->nuisance = element_nuisance(body, &fitted, errors, record);
     }
     thinned_free(&thinned);
-}
-
-/// Sets `correction`, `misfit` and `nuisance`.
-static void add_everett(body_t* body, const model_t* model, const record_t* calibration,
-                        const record_t* record)
-{
-    const size_t n = calibration->num_samples;
-    double* precision = xmalloc((size_t)EVERETT_FREE * EVERETT_FREE * sizeof *precision);
-    double* difference = xmalloc(n * sizeof *difference);
-    double value[EVERETT_FREE];
-    double row[EVERETT_FREE];
-    reference_run(model, START_NEGATIVE_SATURATION, calibration->input, n, difference);
-    for (size_t t = 0; t < n; t++) {
-        difference[t] = calibration->output[t] - difference[t];
-    }
-    const double beyond_noise = body->misfit * body->misfit - body->noise * body->noise;
-    const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n),
-                                    few * sqrt(beyond_noise), value, precision);
-    body->misfit = fmin(left, body->misfit);
-    body->doubt = doubt_of_tables;
-    scale(precision, EVERETT_FREE, 1 / (left * left));
-    rows_t rows = {.body = body, .model = model, .input = record->input};
-    body->nuisance = nuisance_new(precision, EVERETT_FREE, record->num_samples, least_energy * left * left,
-                                  everett_rows, &rows);
-    body->correction = xcalloc(record->num_samples, sizeof *body->correction);
-    everett_past_t past = everett_start(model);
-    for (size_t t = 0; t < record->num_samples; t++) {
-        everett_step(&past, record->input[t], row);
-        for (size_t k = 0; k < EVERETT_FREE; k++) {
-            body->correction[t] += row[k] * value[k];
-        }
-    }
-    free(precision);
-    free(difference);
 }
 
 body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,
@@ -244,20 +253,19 @@ body_t body_find(const model_t* model, start_t start, const record_t* calibratio
         return body;
     }
     if (start == START_NEGATIVE_SATURATION) {
+        if (is_visited) {
+            add_everett(&body, model, calibration, record);
+        }
         try_elements(&body, model, calibration, record);
     }
-    if (is_visited && (!body.stands_in || body.misfit > hardly_more * noise)) {
+    if (is_visited && !body.stands_in && clearly_less * body.misfit * body.misfit > noise * noise) {
         try_duhem(&body, model, start, calibration, record);
-    }
-    if (is_visited && !body.stands_in && start == START_NEGATIVE_SATURATION) {
-        add_everett(&body, model, calibration, record);
     }
     return body;
 }
 
 void body_free(body_t* body)
 {
-    free(body->correction);
     nuisance_free(&body->nuisance);
     *body = (body_t){0};
 }

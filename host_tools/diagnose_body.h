@@ -2,6 +2,7 @@
 #ifndef HYST_HOST_DIAGNOSE_BODY_H
 #define HYST_HOST_DIAGNOSE_BODY_H
 
+#include "everett.h"
 #include "nuisance.h"
 #include "record.h"
 #include "stand_in.h"
@@ -13,8 +14,8 @@ typedef struct {
     stand_in_t stand_in;
     double doubt; ///< mean square by which it may be off on the record, in parts of what it differs from the
                   ///< model by
-    double*
-        correction; ///< [record's samples] what the body adds to the model's output on the record, or NULL
+    bool has_everett; ///< `everett` is added to what the model's plays give
+    everett_t everett;
     nuisance_t nuisance; ///< on the record
 } body_t;
 

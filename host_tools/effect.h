@@ -8,6 +8,7 @@
 #ifndef HYST_HOST_EFFECT_H
 #define HYST_HOST_EFFECT_H
 
+#include "everett.h"
 #include "fast_plays.h"
 #include "hysteresis.h"
 #include "message.h"
@@ -38,7 +39,7 @@ typedef struct {
     const stand_in_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they
                             ///< do on the model's; or NULL
     double input_frequency; ///< for searches: of the line that carries most of the input [Hz]; 0: none does
-    const double* correction; ///< for searches: [num_samples] added to the hysteresis's output; or NULL
+    const everett_t* everett; ///< for searches: what a plant of Preisach's kind adds to the plays; or NULL
 } effect_run_t;
 
 enum { EFFECT_MAX_PARAMETERS = 20 };

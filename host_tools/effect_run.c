@@ -311,6 +311,17 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     free(body);
 }
 
+/// It has the plays' past and sees what they see.
+static void add_everett(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
+                        const double* drive, double* output)
+{
+    double* direct = xmalloc(run->num_samples * sizeof(double));
+    double* seen = seen_of(run, model, hysteresis, drive, direct);
+    everett_add(run->everett, hysteresis->turn, hysteresis->num_turns, seen, run->num_samples, output);
+    free(seen);
+    free(direct);
+}
+
 static void run_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
                            hysteresis_t* hysteresis, const double* drive, double* output)
 {
@@ -318,6 +329,9 @@ static void run_hysteresis(const effect_run_t* run, const model_t* model, start_
         run_body(run, model, start, hysteresis, drive, output);
     } else {
         run_plays(run, model, start, hysteresis, drive, output);
+    }
+    if (run->everett != NULL) {
+        add_everett(run, model, hysteresis, drive, output);
     }
 }
 
@@ -372,9 +386,6 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
         run_mean_field(run, model, start, &hysteresis, drive, output);
     } else {
         run_hysteresis(run, model, start, &hysteresis, drive, output);
-    }
-    for (size_t i = 0; run->correction != NULL && i < run->num_samples; ++i) {
-        output[i] += run->correction[i];
     }
     for (size_t i = 0; i < run->num_samples; ++i) {
         output[i] = hysteresis_stiffened(&stiffness, model, drive[i], output[i]);

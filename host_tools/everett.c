@@ -13,29 +13,42 @@ static size_t node_at(size_t alpha, size_t beta)
     return alpha * (alpha - 1) / 2 + beta;
 }
 
-/// Adds weight * E(alpha, beta), linear between nodes, to a row of coefficients.
-static void add_everett(double alpha, double beta, double weight, double* row)
+/// E(alpha, beta), linear between nodes: the sum of part * the nodes' values.
+typedef struct {
+    size_t node[4];
+    double part[4];
+    size_t count; ///< on the diagonal E is 0
+} everett_place_t;
+
+static everett_place_t place_of(double from, double to)
 {
-    const double a = alpha * EVERETT_CELLS;
-    const double b = beta * EVERETT_CELLS;
+    const double a = fmax(from, to) * EVERETT_CELLS;
+    const double b = fmin(from, to) * EVERETT_CELLS;
     const size_t i = a < EVERETT_CELLS - 1 ? (size_t)a : EVERETT_CELLS - 1;
     const size_t k = b < EVERETT_CELLS - 1 ? (size_t)b : EVERETT_CELLS - 1;
     const double x = a - (double)i;
     const double y = b - (double)k;
     const double part[2][2] = {{(1 - x) * (1 - y), (1 - x) * y}, {x * (1 - y), x * y}};
+    everett_place_t place = {.count = 0};
     for (size_t p = 0; p < 2; p++) {
         for (size_t q = 0; q < 2; q++) {
-            // On the diagonal E is 0.
             if (i + p > k + q) {
-                row[node_at(i + p, k + q)] += weight * part[p][q];
+                place.node[place.count] = node_at(i + p, k + q);
+                place.part[place.count++] = part[p][q];
             }
         }
     }
+    return place;
+}
+
+static everett_past_t start_over(double input_min, double input_max)
+{
+    return (everett_past_t){.input_min = input_min, .input_max = input_max, .count = 1};
 }
 
 everett_past_t everett_start(const model_t* model)
 {
-    return (everett_past_t){.input_min = model->input_min, .input_max = model->input_max, .count = 1};
+    return start_over(model->input_min, model->input_max);
 }
 
 /// Moves to u: smaller loops that it closes are wiped out.
@@ -56,16 +69,63 @@ static void move_to(everett_past_t* past, double u)
     }
 }
 
-void everett_step(everett_past_t* past, double input, double* row)
+/// The extreme after which the k-th part of the path ends.
+static double end_of(const everett_past_t* past, size_t k)
+{
+    return k + 1 < past->count ? past->extreme[k + 1] : past->present;
+}
+
+static double sign_of(size_t k)
+{
+    return k % 2 == 0 ? 1 : -1;
+}
+
+static void take(everett_past_t* past, double input)
 {
     const double part = (input - past->input_min) / (past->input_max - past->input_min);
     move_to(past, fmin(fmax(part, 0), 1));
+}
+
+void everett_step(everett_past_t* past, double input, double* row)
+{
+    take(past, input);
     memset(row, 0, EVERETT_FREE * sizeof *row);
     row[EVERETT_FREE - 1] = 1;
     for (size_t k = 0; k < past->count; k++) {
-        const double from = past->extreme[k];
-        const double to = k + 1 < past->count ? past->extreme[k + 1] : past->present;
-        add_everett(fmax(from, to), fmin(from, to), k % 2 == 0 ? 1 : -1, row);
+        const everett_place_t place = place_of(past->extreme[k], end_of(past, k));
+        for (size_t i = 0; i < place.count; i++) {
+            row[place.node[i]] += sign_of(k) * place.part[i];
+        }
+    }
+}
+
+/// What the k-th part of the path gives.
+static double part_of(const everett_t* everett, const everett_past_t* past, size_t k)
+{
+    const everett_place_t place = place_of(past->extreme[k], end_of(past, k));
+    double sum = 0;
+    for (size_t i = 0; i < place.count; i++) {
+        sum += place.part[i] * everett->value[place.node[i]];
+    }
+    return sign_of(k) * sum;
+}
+
+void everett_add(const everett_t* everett, const double* turn, size_t num_turns, const double* input,
+                 size_t num_samples, double* output)
+{
+    everett_past_t past = start_over(everett->input_min, everett->input_max);
+    double before[EVERETT_MOST_EXTREMES] = {everett->value[EVERETT_FREE - 1]}; // what the parts up to it give
+    size_t known = 1;
+    for (size_t t = 0; t < num_turns + num_samples; t++) {
+        take(&past, t < num_turns ? turn[t] : input[t - num_turns]);
+        // Below the present count no extreme has changed since.
+        known = known < past.count ? known : past.count;
+        for (; known < past.count; known++) {
+            before[known] = before[known - 1] + part_of(everett, &past, known - 1);
+        }
+        if (t >= num_turns) {
+            output[t - num_turns] += before[known - 1] + part_of(everett, &past, known - 1);
+        }
     }
 }
 

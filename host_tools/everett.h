@@ -27,6 +27,17 @@ everett_past_t everett_start(const model_t* model);
 /// values and the constant.
 void everett_step(everett_past_t* past, double input, double* row);
 
+/// The difference itself.
+typedef struct {
+    double input_min, input_max;
+    double value[EVERETT_FREE];
+} everett_t;
+
+/// Adds it over an input[num_samples] from negative saturation, ahead of which the input turned at
+/// turn[num_turns], to output[num_samples].
+void everett_add(const everett_t* everett, const double* turn, size_t num_turns, const double* input,
+                 size_t num_samples, double* output);
+
 /// Fits value[EVERETT_FREE] to difference[num_samples], output units, over an input from negative saturation:
 /// as smooth as predicts stretches best that the fit has not seen. precision[EVERETT_FREE][EVERETT_FREE]:
 /// upper triangle of the values' inverse covariance for errors of variance 1 of which `correlation` count as

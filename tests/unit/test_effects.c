@@ -262,6 +262,24 @@ static void a_mean_field_acts_beside_another_start(void)
     fast_plays_free(fast);
 }
 
+/// What a plant of Preisach's kind adds sees the input as late as the plays do.
+static void a_difference_of_preisach_s_kind_is_delayed_with_the_plays(void)
+{
+    everett_t everett = {.input_min = model.input_min, .input_max = model.input_max};
+    for (size_t k = 0; k < EVERETT_FREE; ++k) {
+        everett.value[k] = 0.1 * sin((double)k);
+    }
+    effect_run_t search = run;
+    search.everett = &everett;
+    effect_simulate(&search, &model, START_NEGATIVE_SATURATION, NULL, 0, plain);
+    const effect_use_t use = effect_case_use(&(effect_case_t){"delay", NULL, {3.0 * run.sample_time}, 1.0});
+    effect_simulate(&search, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    // Times are sums of steps: an interpolated input is a few roundings off.
+    for (size_t i = 3; i < record.num_samples; ++i) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, plain[i - 3], output[i]);
+    }
+}
+
 /// Or refuses it where it is no effect of the catalogue.
 static void json_gives_the_use_back(void)
 {
@@ -418,6 +436,7 @@ int main(void)
     RUN_TEST(uneven_samples_give_the_same);
     RUN_TEST(searches_run_the_same);
     RUN_TEST(a_mean_field_acts_beside_another_start);
+    RUN_TEST(a_difference_of_preisach_s_kind_is_delayed_with_the_plays);
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);
     RUN_TEST(held_viscous_plays_are_sampled_filters);

@@ -1,5 +1,6 @@
 #include "bounded.h"
 #include "element_fit.h"
+#include "element_plant.h"
 #include "model.h"
 #include "random.h"
 #include "series.h"
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <unity.h>
 
-enum { SAMPLES = 3000, FINE = 100 };
+enum { SAMPLES = 3000 };
 
 static const double noise = 0.002;
 static double input[SAMPLES];
@@ -22,81 +23,11 @@ void tearDown(void)
 {
 }
 
-/// Up and down through the range, then random reversals.
-static void make_input(uint64_t seed)
-{
-    random_t random = random_new(seed);
-    double v = 0;
-    double target = 1;
-    size_t turns = 0;
-    for (size_t t = 0; t < SAMPLES; t++) {
-        input[t] = 40 + 20 * v;
-        v += fmin(fmax(target - v, -0.01), 0.01);
-        if (fabs(target - v) <= 0) {
-            turns++;
-            target = turns == 1 ? 0 : turns == 2 ? 1 : random_uniform(&random, 0, 1);
-        }
-    }
-}
-
-/// What is beside the element: smooth, increasing, of no spline.
-static double reversible(double x)
-{
-    return 0.4 * atan(2 * (x - 0.4));
-}
-
-/// Explicit Euler in FINE steps a sample.
-typedef struct {
-    double x, z, wall;
-} plant_t;
-
-static double bouc_wen(plant_t* p, double x)
-{
-    const double move = (x - p->x) / FINE;
-    for (size_t k = 0; k < FINE; k++) {
-        p->z += move *
-                (6 - pow(fabs(p->z), 1.3) * (4 * (move * p->z > 0 ? 1 : -1) + 1.5 + (move > 0 ? 0.4 : -0.4)));
-    }
-    p->x = x;
-    return x - p->z / 9;
-}
-
-static double jiles_atherton(plant_t* p, double x)
-{
-    const double move = (x - p->x) / FINE;
-    for (size_t k = 0; k < FINE; k++) {
-        p->x += move;
-        const double effective = (2 * p->x - 1 + 0.08 * p->z) / 0.25;
-        const double ideal = 1 / tanh(effective) - 1 / effective;
-        const double lack = ideal - p->wall;
-        if (lack * move > 0) {
-            p->wall += 2 * move * lack / (0.2 * (move > 0 ? 1 : -1) - 0.08 * lack);
-        }
-        p->z = 0.2 * ideal + 0.8 * p->wall;
-    }
-    return 0.4 * p->z;
-}
-
-typedef double plant_step_t(plant_t* plant, double x);
-
-static void run_plant(plant_step_t* step)
-{
-    plant_t p = {0};
-    // From a first rise down to the range's foot.
-    for (int k = 1; k <= 200; k++) {
-        (void)step(&p, 1 - fabs((double)k / 100 - 1));
-    }
-    for (size_t t = 0; t < SAMPLES; t++) {
-        const double x = (input[t] - 40) / 20;
-        output[t] = 5 * (step(&p, x) + reversible(x));
-    }
-}
-
-static element_record_t calibrate(plant_step_t* step)
+static element_record_t calibrate(element_plant_step_t* step)
 {
     random_t random = random_new(9);
-    make_input(1);
-    run_plant(step);
+    element_plant_input(1, input, SAMPLES);
+    element_plant_run(step, input, SAMPLES, output);
     for (size_t t = 0; t < SAMPLES; t++) {
         output[t] += 5 * noise * random_normal(&random);
     }
@@ -111,14 +42,14 @@ static element_record_t calibrate(plant_step_t* step)
 /// Of a calibration of its kind it leaves the noise, whose RMS over this many samples is known to 1/sqrt(2 n)
 /// (four of those are asked); on an input that it has not seen, the error of ELEMENT_FREE fitted numbers is
 /// sqrt(ELEMENT_FREE / n) of the noise where the two inputs go alike (three of those are asked).
-static void check_kind(element_kind_t kind, plant_step_t* step)
+static void check_kind(element_kind_t kind, element_plant_step_t* step)
 {
     const element_record_t record = calibrate(step);
     double rmse;
     const element_t element = element_fit(kind, &record, &rmse);
     TEST_ASSERT_DOUBLE_WITHIN(4 * record.noise / sqrt(2.0 * SAMPLES), record.noise, rmse);
-    make_input(2);
-    run_plant(step);
+    element_plant_input(2, input, SAMPLES);
+    element_plant_run(step, input, SAMPLES, output);
     element_run(&element, 0, input, SAMPLES, predicted);
     TEST_ASSERT_TRUE(sqrt(series_mean_square(predicted, output, SAMPLES)) <
                      3 * record.noise * sqrt((double)ELEMENT_FREE / SAMPLES));
@@ -129,12 +60,12 @@ static void check_kind(element_kind_t kind, plant_step_t* step)
 
 static void test_a_bouc_wen_element_is_found(void)
 {
-    check_kind(ELEMENT_BOUC_WEN, bouc_wen);
+    check_kind(ELEMENT_BOUC_WEN, element_plant_bouc_wen);
 }
 
 static void test_a_jiles_atherton_element_is_found(void)
 {
-    check_kind(ELEMENT_JILES_ATHERTON, jiles_atherton);
+    check_kind(ELEMENT_JILES_ATHERTON, element_plant_jiles_atherton);
 }
 
 /// Gain and curve are linear, so their derivatives are differences to rounding. A shape's is a difference to
@@ -152,7 +83,7 @@ static double slope_of(element_t* element, double* number, double step, size_t t
 
 static void test_derivatives_are_those_of_the_output(void)
 {
-    const element_record_t record = calibrate(jiles_atherton);
+    const element_record_t record = calibrate(element_plant_jiles_atherton);
     double rmse;
     element_t element = element_fit(ELEMENT_JILES_ATHERTON, &record, &rmse);
     double* derivatives = xmalloc(SAMPLES * ELEMENT_FREE * sizeof *derivatives);
@@ -179,7 +110,7 @@ static void test_derivatives_are_those_of_the_output(void)
 /// matters, and that moment is what the derivative's column is a difference of.
 static void test_moments_of_a_step_are_left_open(void)
 {
-    const element_record_t record = calibrate(bouc_wen);
+    const element_record_t record = calibrate(element_plant_bouc_wen);
     double rmse;
     const element_t element = element_fit(ELEMENT_BOUC_WEN, &record, &rmse);
     double* derivatives = xmalloc(SAMPLES * ELEMENT_FREE * sizeof *derivatives);
@@ -205,7 +136,7 @@ static void test_moments_of_a_step_are_left_open(void)
 /// what they did at the start.
 static void test_ends_and_start(void)
 {
-    const element_record_t record = calibrate(bouc_wen);
+    const element_record_t record = calibrate(element_plant_bouc_wen);
     double rmse;
     const element_t element = element_fit(ELEMENT_BOUC_WEN, &record, &rmse);
     const double beyond[] = {30, 90, 60, 60};

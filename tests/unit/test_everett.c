@@ -114,11 +114,39 @@ static void test_closed_loops_are_forgotten(void)
     }
 }
 
+/// Run at once, with turns ahead of it, it is the sum of values and coefficients.
+static void test_a_run_is_the_sum_of_its_steps(void)
+{
+    static const double turn[] = {3, -1, 2};
+    everett_t everett = {.input_min = model.input_min, .input_max = model.input_max};
+    random_t random = random_new(8);
+    for (size_t k = 0; k < EVERETT_FREE; k++) {
+        everett.value[k] = random_uniform(&random, -1, 1);
+    }
+    static double output[SAMPLES];
+    everett_add(&everett, turn, 3, input, SAMPLES, output);
+    everett_past_t past = everett_start(&model);
+    double row[EVERETT_FREE];
+    for (size_t k = 0; k < 3; k++) {
+        everett_step(&past, turn[k], row);
+    }
+    for (size_t t = 0; t < SAMPLES; t++) {
+        everett_step(&past, input[t], row);
+        double sum = 0;
+        for (size_t k = 0; k < EVERETT_FREE; k++) {
+            sum += row[k] * everett.value[k];
+        }
+        // At most as many terms of at most 1 as extremes and cells' corners.
+        TEST_ASSERT_DOUBLE_WITHIN(8 * EVERETT_MOST_EXTREMES * 1e-15, sum, output[t]);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_line_is_predicted);
     RUN_TEST(test_a_play_is_predicted);
     RUN_TEST(test_closed_loops_are_forgotten);
+    RUN_TEST(test_a_run_is_the_sum_of_its_steps);
     return UNITY_END();
 }
