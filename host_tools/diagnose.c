@@ -34,6 +34,7 @@ typedef struct {
     thinned_t thinned;
     effect_run_t run; ///< over what is judged
     body_t body;
+    loop_middle_t* body_middle; ///< or NULL, where the model's plays are all there is
     gap_t gap;
     candidates_t candidates;
     scale_t scale;
@@ -199,6 +200,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
     run.fast = w->run.fast;
     run.body = w->run.body;
     run.everett = w->run.everett;
+    run.body_middle = w->run.body_middle;
     gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.record.output, fitted.carried, &nothing,
                         w->gap.filter[0].variance);
     gap.dead_zone = w->gap.dead_zone;
@@ -229,6 +231,10 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
                             options->calibration_noise, scope_is_known(&w->scope), &w->thinned.record);
         w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
         w->run.everett = w->body.has_everett ? &w->body.everett : NULL;
+    }
+    if (has_another_body(w)) {
+        w->body_middle = effect_run_find_middle(&w->run, model, options->start);
+        w->run.body_middle = w->body_middle;
     }
     w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried,
                      &w->body.nuisance,
@@ -269,6 +275,19 @@ static void add_grid(work_t* w)
     }
 }
 
+static double least_left(const candidates_t* c)
+{
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < c->count; i++) {
+        least = fmin(least, hypothesis_mean_square(&c->hypothesis[i]));
+    }
+    return least;
+}
+
+/// Mean square above the floor beyond which a further effect is looked for, in grains: less is not worth its
+/// price.
+static const double worth_grains = 0.7;
+
 /// Searches until one more effect cannot be worth its price.
 static void search(work_t* w, double noise)
 {
@@ -281,14 +300,12 @@ static void search(work_t* w, double noise)
         noise * noise, w->body.misfit * w->body.misfit, w->body.doubt * w->correction,
         fmax(hypothesis_mean_square(&c->hypothesis[0]), w->plain_rmse * w->plain_rmse - w->correction));
     candidates_add_singles(c);
-    double least = HUGE_VAL;
-    for (size_t i = 0; i < c->count; i++) {
-        least = fmin(least, hypothesis_mean_square(&c->hypothesis[i]));
-    }
-    scale_lower(&w->scale, least);
-    const double worth = 0.7 * w->scale.grain + w->scale.floor;
-    if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->scale, c)]) > worth) {
+    scale_lower(&w->scale, least_left(c));
+    const double pair_from = worth_grains * w->scale.grain + scale_least_floor(&w->scale);
+    if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->scale, c)]) > pair_from) {
         candidates_add_pairs(c);
+        scale_lower(&w->scale, least_left(c));
+        const double worth = worth_grains * w->scale.grain + w->scale.floor;
         const hypothesis_t* best = &c->hypothesis[verdict_best(&w->scale, c)];
         if (best->num_uses == 2 && !(w->grid.step > 0) && hypothesis_mean_square(best) > worth) {
             candidates_add_triples(c);
@@ -339,6 +356,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     free(difference);
     gap_free(&w.gap);
     body_free(&w.body);
+    loop_middle_free(w.body_middle);
     effect_run_free(&w.run);
     thinned_free(&w.thinned);
     effect_run_free(&w.whole);

@@ -12,6 +12,7 @@ void shrink_simulate(const gap_t* gap, const effect_run_t* run, const effect_use
     effect_run_t alone = *run;
     alone.body = NULL;
     alone.everett = NULL;
+    alone.body_middle = NULL;
     effect_simulate(&alone, gap->model, gap->start, uses, num_uses, output);
 }
 

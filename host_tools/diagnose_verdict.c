@@ -8,7 +8,7 @@
 /// Grain in parts of floor and gap.
 static const double floor_grain = 0.2;
 static const double gap_grain = 1e-3;
-/// Where one effect alone leaves less than the floor expected, the body cannot be much worse than that.
+/// Where an explanation leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 1.5;
 /// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are
 /// more hypotheses the more effects they have.
@@ -30,6 +30,11 @@ void scale_lower(scale_t* scale, double least)
     const double floor = fmin(scale->floor, fmax(scale->known, floor_over_least * least));
     scale->grain += floor_grain * (floor - scale->floor);
     scale->floor = floor;
+}
+
+double scale_least_floor(const scale_t* scale)
+{
+    return fmin(scale->floor, floor_over_least * scale->known);
 }
 
 static double above_floor(const scale_t* scale, const hypothesis_t* hypothesis)

@@ -17,9 +17,10 @@ typedef struct {
 /// misfit: mean square of what the body leaves of its calibration. doubt: mean square by which
 /// the body may be off on the record. gap: mean square of what the body leaves of the record.
 scale_t scale_new(double noise, double misfit, double doubt, double gap);
-/// Lowers the floor to what the record allows. least: the smallest mean square that a hypothesis with at most
-/// one effect leaves.
+/// Lowers the floor to what the record allows. least: the smallest mean square that a hypothesis leaves.
 void scale_lower(scale_t* scale, double least);
+/// What the floor may still be lowered to, where the body is as good on the record as on its calibration.
+double scale_least_floor(const scale_t* scale);
 /// How well a hypothesis stands, the less the better: the logarithm of what it leaves above the floor, and a
 /// price for each effect.
 double verdict_score(const scale_t* scale, const hypothesis_t* hypothesis);

@@ -22,20 +22,21 @@ typedef enum { EFFECT_DRIVE, EFFECT_HYSTERESIS, EFFECT_BODY, EFFECT_SENSOR } eff
 /// What an effect sees of the record it runs over.
 typedef struct {
     size_t num_samples;
-    const double* time;            ///< [num_samples] seconds; a record without time: one second a sample
-    const double* input;           ///< [num_samples] the command, before any effect
-    const record_t* record;        ///< for auxiliary columns; may be NULL when no effect names one
-    double input_min;              ///< the model's
-    double input_span;             ///< the model's input_max - input_min
-    double output_span;            ///< the range of the model's own output over this input
-    double sample_time;            ///< median of the time steps [s]
-    double duration;               ///< [s]
-    double output_min, output_max; ///< the model's output between its two saturations, whatever the input
-    double input_rate;             ///< the largest |d input/dt| between two samples
-    double travel;                 ///< the sum of |d input|
-    double largest_radius;         ///< of a play that the model's range can move, envelope units
-    const loop_middle_t* middle;   ///< of the model
-    const fast_plays_t* fast;      ///< for searches: the model's plays prepared for one start, or NULL
+    const double* time;               ///< [num_samples] seconds; a record without time: one second a sample
+    const double* input;              ///< [num_samples] the command, before any effect
+    const record_t* record;           ///< for auxiliary columns; may be NULL when no effect names one
+    double input_min;                 ///< the model's
+    double input_span;                ///< the model's input_max - input_min
+    double output_span;               ///< the range of the model's own output over this input
+    double sample_time;               ///< median of the time steps [s]
+    double duration;                  ///< [s]
+    double output_min, output_max;    ///< the model's output between its two saturations, whatever the input
+    double input_rate;                ///< the largest |d input/dt| between two samples
+    double travel;                    ///< the sum of |d input|
+    double largest_radius;            ///< of a play that the model's range can move, envelope units
+    const loop_middle_t* middle;      ///< of the model
+    const loop_middle_t* body_middle; ///< for searches: of what stands in for the model or is added; or NULL
+    const fast_plays_t* fast;         ///< for searches: the model's plays prepared for one start, or NULL
     const stand_in_t* body; ///< for searches: stands in for the model's hysteresis, effects in it act as they
                             ///< do on the model's; or NULL
     double input_frequency; ///< for searches: of the line that carries most of the input [Hz]; 0: none does
@@ -120,6 +121,8 @@ typedef struct {
     bool is_of_one_record; ///< "transferable": false in the model file: fitted to one record's own course
 } effect_use_t;
 
+/// The middle of the major loop of what the run's `body` or `everett` makes of the model.
+loop_middle_t* effect_run_find_middle(const effect_run_t* run, const model_t* model, start_t start);
 /// The run's description over a record (time, or 1 s a sample without it).
 effect_run_t effect_run_new(const model_t* model, const record_t* record);
 void effect_run_free(effect_run_t* run);

@@ -186,7 +186,7 @@ static void apply_stage(const effect_run_t* run, const effect_use_t* uses, size_
 hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses, size_t num_uses)
 {
     hysteresis_t hysteresis = hysteresis_neutral();
-    hysteresis.middle = run->middle;
+    hysteresis.middle = run->body_middle != NULL ? run->body_middle : run->middle;
     for (size_t u = 0; u < num_uses; ++u) {
         if (uses[u].effect->configure != NULL) {
             double* column = centred_column(run, &uses[u]);
@@ -408,4 +408,28 @@ void effect_simulate(const effect_run_t* run, const model_t* model, start_t star
 {
     effect_simulate_hysteresis(run, model, start, uses, num_uses, output);
     effect_simulate_rest(run, uses, num_uses, output);
+}
+
+loop_middle_t* effect_run_find_middle(const effect_run_t* run, const model_t* model, start_t start)
+{
+    enum { CELLS = LOOP_MIDDLE_CELLS, SAMPLES = 3 * CELLS + 1 };
+    double* series = xmalloc((2 * SAMPLES + CELLS + 1) * sizeof(double));
+    double* output = series + SAMPLES;
+    double* descending = output + SAMPLES;
+    const double cell = run->input_span / CELLS;
+    // Up, down and up again: the last two are the major loop.
+    for (size_t i = 0; i < SAMPLES; ++i) {
+        const size_t into = i % (2 * CELLS);
+        series[i] = run->input_min + cell * (double)(into <= CELLS ? into : 2 * CELLS - into);
+    }
+    effect_run_t loop = *run;
+    loop.input = series;
+    loop.num_samples = SAMPLES;
+    effect_simulate_hysteresis(&loop, model, start, NULL, 0, output);
+    for (size_t i = 0; i <= CELLS; ++i) {
+        descending[i] = output[2 * CELLS - i];
+    }
+    loop_middle_t* middle = loop_middle_between(model, output + 2 * CELLS, descending);
+    free(series);
+    return middle;
 }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { CELLS = 1024 };
+enum { CELLS = LOOP_MIDDLE_CELLS };
 
 struct loop_middle {
     double input_min, half_range;
@@ -29,12 +29,27 @@ static double middle_of(const model_t* model, double v)
     return sum;
 }
 
-loop_middle_t* loop_middle_new(const model_t* model)
+static loop_middle_t* over_range(const model_t* model)
 {
     loop_middle_t* middle = xmalloc(sizeof *middle);
     middle->input_min = model->input_min;
     middle->half_range = 0.5 * (model->input_max - model->input_min);
     middle->half_span = 0.5 * (model_output_max(model) - model_output_min(model));
+    return middle;
+}
+
+loop_middle_t* loop_middle_between(const model_t* model, const double* ascending, const double* descending)
+{
+    loop_middle_t* middle = over_range(model);
+    for (size_t i = 0; i <= CELLS; i++) {
+        middle->node[i] = 0.5 * (ascending[i] + descending[i]);
+    }
+    return middle;
+}
+
+loop_middle_t* loop_middle_new(const model_t* model)
+{
+    loop_middle_t* middle = over_range(model);
     for (size_t i = 0; i <= CELLS; i++) {
         const double v = model->input_min + 2 * middle->half_range * (double)i / CELLS;
         middle->node[i] = middle_of(model, v);
