@@ -25,7 +25,8 @@ static const double no_more = 1.05;
 static const size_t most_calibrated = 12000;
 /// How much a body may be off on other work, in parts of what it differs from the model by.
 static const double doubt_of_tables = 0.05;
-static const double doubt_of_element = 0.002;
+static const double doubt_of_element[ELEMENT_KINDS] = {
+    [ELEMENT_BOUC_WEN] = 0.001, [ELEMENT_JILES_ATHERTON] = 0.01};
 
 /// Whether the body is at least as near to the record as the model, whatever else acts on it.
 static bool is_near(const model_t* model, start_t start, const stand_in_t* body, const record_t* record)
@@ -238,7 +239,8 @@ static void try_elements(body_t* body, const model_t* model, const record_t* cal
     }
     if (body->stands_in) {
         const double missed = fmax(body->misfit * body->misfit - body->noise * body->noise, 0);
-        body->doubt = missed / (other_misfit * other_misfit - body->misfit * body->misfit) + doubt_of_element;
+        body->doubt = missed / (other_misfit * other_misfit - body->misfit * body->misfit) +
+                      doubt_of_element[best.element.kind];
         const double errors = errors_of(body, model, START_NEGATIVE_SATURATION, &thinned.record);
         body->nuisance = element_nuisance(body, &fitted, errors, record);
     }

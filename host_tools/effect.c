@@ -6,6 +6,7 @@
 static const effect_t* const catalogue[] = {
     &effect_gain_offset,
     &effect_delay,
+    &effect_delay_measurement,
     &effect_input_lag,
     &effect_slew_limit,
     &effect_rate_dependence_play_lag,

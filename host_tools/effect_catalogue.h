@@ -6,6 +6,7 @@
 
 extern const effect_t effect_gain_offset;
 extern const effect_t effect_delay;
+extern const effect_t effect_delay_measurement;
 extern const effect_t effect_input_lag;
 extern const effect_t effect_slew_limit;
 extern const effect_t effect_rate_dependence_play_lag;

@@ -1,8 +1,8 @@
 /// delay: pure transport delay between command and response (a bus, a controller's cycle, a line's length).
-///     v'(t) = v(t - time), linear between the samples; before the first sample the input was at its first
-///     value
-/// time >= 0 [s]. Fitted over 0 ... a tenth of the record. On the drive side: the hysteresis is rate
-/// independent, so a delay behind it would do the same.
+///     x'(t) = x(t - time), linear between the samples; before the first sample x was at its first value
+/// x is the input, or the output (mechanism "measurement"): as the hysteresis is rate independent the two are
+/// the same but between the samples, where a step's half gives another output than half of the step's
+/// outputs. time >= 0 [s]. Fitted over 0 ... a tenth of the record.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -39,6 +39,8 @@ static void apply(const effect_run_t* run, const double* parameter, const double
     free(given);
 }
 
+#define NO_INVERSE "the response can only come later than the command; ask for the output earlier instead"
+
 const effect_t effect_delay = {
     .name = "delay",
     .stage = EFFECT_DRIVE,
@@ -48,5 +50,18 @@ const effect_t effect_delay = {
     .limits = limits,
     .has_threshold = true,
     .apply = apply,
-    .no_inverse = "the response can only come later than the command; ask for the output earlier instead",
+    .no_inverse = NO_INVERSE,
+};
+
+const effect_t effect_delay_measurement = {
+    .name = "delay",
+    .mechanism = "measurement",
+    .stage = EFFECT_SENSOR,
+    .transferable = true,
+    .num_parameters = COUNT_OF(parameters),
+    .parameter = parameters,
+    .limits = limits,
+    .has_threshold = true,
+    .apply = apply,
+    .no_inverse = NO_INVERSE,
 };

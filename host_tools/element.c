@@ -23,14 +23,14 @@ static double bouc_wen_slope(const element_t* e, double z, bool rising)
 /// Where in a step its slope is taken, in parts of the step.
 static double moment(const element_t* e, size_t ahead)
 {
-    return 0.5 * (1 + e->ahead[ahead]);
+    return 0.5 * (1 + e->shape[ahead]);
 }
 
 static void bouc_wen_move(element_state_t* s, double move)
 {
     const bool rising = move > 0;
     const double slope = bouc_wen_slope(s->element, s->inner, rising);
-    const double then = s->inner + moment(s->element, 1) * move * slope;
+    const double then = s->inner + moment(s->element, ELEMENT_STATE_AHEAD) * move * slope;
     s->inner += move * bouc_wen_slope(s->element, then, rising);
     s->state = s->inner;
 }
@@ -63,11 +63,14 @@ static void atherton_move(element_state_t* s, double move)
 {
     const element_t* e = s->element;
     const bool rising = move > 0;
-    const double wall = s->inner + moment(e, 1) * move * wall_slope(e, s->ideal, s->inner, rising);
-    const double part = s->part + moment(e, 0) * move;
-    const double then = magnetisation(e, ideal_at(e, part, s->state), wall);
-    s->inner += move * wall_slope(e, ideal_at(e, part, then), wall, rising);
-    s->ideal = ideal_at(e, s->part + move, s->state + (then - s->state) / moment(e, 0));
+    const double of_state = moment(e, ELEMENT_STATE_AHEAD);
+    const double part = s->part + moment(e, ELEMENT_INPUT_AHEAD) * move;
+    const double walls = move * wall_slope(e, s->ideal, s->inner, rising);
+    const double change =
+        magnetisation(e, ideal_at(e, s->part + move, s->state), s->inner + walls) - s->state;
+    const double ideal = ideal_at(e, part, s->state + of_state * change);
+    s->inner += move * wall_slope(e, ideal, s->inner + of_state * walls, rising);
+    s->ideal = ideal_at(e, s->part + move, s->state + fmin(2 * of_state, 1) * change);
     s->state = magnetisation(e, s->ideal, s->inner);
 }
 

@@ -17,16 +17,18 @@
 typedef enum { ELEMENT_BOUC_WEN, ELEMENT_JILES_ATHERTON, ELEMENT_KINDS } element_kind_t;
 
 enum {
-    ELEMENT_SHAPES = 5, ///< numbers that the state's course depends on
+    ELEMENT_SHAPES = 7, ///< numbers that the state's course depends on
     ELEMENT_CURVE = 15, ///< cubic B-splines over the range
-    ELEMENT_AHEAD = 2,
-    /// numbers that a calibration leaves more or less open: shapes, gain, curve, ahead
-    ELEMENT_FREE = ELEMENT_SHAPES + 1 + ELEMENT_CURVE + ELEMENT_AHEAD
+    /// numbers that a calibration leaves more or less open: shapes, gain, curve
+    ELEMENT_FREE = ELEMENT_SHAPES + 1 + ELEMENT_CURVE
 };
 
-/// Which number of `shape` is which.
+/// Which number of `shape` is which. The last two: how far beside the middle of a step its slope is taken, in
+/// half steps, of the input (Bouc-Wen: no part in it) and of the state. A plant answers large steps at their
+/// ends, or as it stood before them; a calibration of small ones leaves that open.
 enum { BOUC_WEN_STEEPNESS, BOUC_WEN_ORDER, BOUC_WEN_FALLING, BOUC_WEN_RISING_BACK, BOUC_WEN_FALLING_BACK };
 enum { ATHERTON_SHAPE, ATHERTON_PINNING, ATHERTON_COUPLING, ATHERTON_BOWING, ATHERTON_CENTRE };
+enum { ELEMENT_INPUT_AHEAD = ELEMENT_SHAPES - 2, ELEMENT_STATE_AHEAD };
 
 typedef struct {
     element_kind_t kind;
@@ -36,10 +38,6 @@ typedef struct {
     double shape[ELEMENT_SHAPES];
     double gain;                 ///< output units
     double curve[ELEMENT_CURVE]; ///< output units
-    /// How far beside the middle of a step its slope is taken, in half steps: of the input, of the state. 0
-    /// but for what a calibration of small steps leaves open: whether the plant answers large ones at their
-    /// ends.
-    double ahead[ELEMENT_AHEAD];
 } element_t;
 
 /// Sample by sample.

@@ -25,12 +25,16 @@ static const shape_t shapes[ELEMENT_KINDS][ELEMENT_SHAPES] = {
                           [BOUC_WEN_ORDER] = {{0.5, 4, true}, {1, 1, 2, 1.5}},
                           [BOUC_WEN_FALLING] = {{0.25, 4, true}, {1, 1, 1, 1}},
                           [BOUC_WEN_RISING_BACK] = {{-2, 1, false}, {-0.4, -0.4, 0, -0.4}},
-                          [BOUC_WEN_FALLING_BACK] = {{-2, 1, false}, {-0.4, -0.4, 0, -0.4}}},
+                          [BOUC_WEN_FALLING_BACK] = {{-2, 1, false}, {-0.4, -0.4, 0, -0.4}},
+                          [ELEMENT_INPUT_AHEAD] = {{-1, 1, false}, {0, 0, 0, 0}},
+                          [ELEMENT_STATE_AHEAD] = {{-1, 1, false}, {0, 0, 0, 0}}},
     [ELEMENT_JILES_ATHERTON] = {[ATHERTON_SHAPE] = {{0.03, 3, true}, {0.2, 0.2, 0.5, 0.5}},
                                 [ATHERTON_PINNING] = {{0.01, 2, true}, {0.1, 0.3, 0.1, 0.3}},
                                 [ATHERTON_COUPLING] = {{-0.5, 1.5, false}, {0.05, 0.05, 0.1, 0.1}},
                                 [ATHERTON_BOWING] = {{0, 0.9, false}, {0.2, 0.2, 0.2, 0.2}},
-                                [ATHERTON_CENTRE] = {{-0.5, 0.5, false}, {0, 0, 0, 0}}},
+                                [ATHERTON_CENTRE] = {{-0.5, 0.5, false}, {0, 0, 0, 0}},
+                                [ELEMENT_INPUT_AHEAD] = {{-1, 1, false}, {0, 0, 0, 0}},
+                                [ELEMENT_STATE_AHEAD] = {{-1, 1, false}, {0, 0, 0, 0}}},
 };
 
 /// Gain and curve are linear: for given shapes they are found by projection, so that only shapes are searched
@@ -248,11 +252,6 @@ void element_derivatives(const element_t* element, const double* input, size_t n
         other.shape[k] += step;
         fill_column(&other, step, input, num_samples, state, derivatives + k);
     }
-    for (size_t k = 0; k < ELEMENT_AHEAD; k++) {
-        element_t other = *element;
-        other.ahead[k] = 1;
-        fill_column(&other, 1, input, num_samples, state, derivatives + ELEMENT_FREE - ELEMENT_AHEAD + k);
-    }
     for (size_t t = 0; t < num_samples; t++) {
         double* row = &derivatives[t * ELEMENT_FREE];
         row[ELEMENT_SHAPES] = state[t];
@@ -268,7 +267,7 @@ static double expected(const element_t* element, const element_record_t* record,
         const bounds_t b = shapes[element->kind][number].bounds;
         return b.high - b.low;
     }
-    return number < ELEMENT_FREE - ELEMENT_AHEAD ? series_span(record->output, record->num_samples) : 1;
+    return series_span(record->output, record->num_samples);
 }
 
 void element_precision(const element_t* element, const element_record_t* record, double* precision)

@@ -18,7 +18,7 @@ typedef struct {
 /// Least squares of the simulated output over several starts, the curve smooth where the record does not say
 /// more. *rmse: what it leaves of the samples that are not carried; infinite where there is no such element.
 element_t element_fit(element_kind_t kind, const element_record_t* record, double* rmse);
-/// derivatives[num_samples][ELEMENT_FREE] of element_run's output by shapes, gain, curve and ahead.
+/// derivatives[num_samples][ELEMENT_FREE] of element_run's output by shapes, gain and curve.
 void element_derivatives(const element_t* element, const double* input, size_t num_samples,
                          double* derivatives);
 /// precision[ELEMENT_FREE][ELEMENT_FREE]: upper triangle by columns of the inverse covariance of the fitted

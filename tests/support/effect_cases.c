@@ -20,6 +20,7 @@ static const double coarse_step = 0.004;
 static const effect_case_t cases[] = {
     {"gain_offset", NULL, {1.2, 0.1}, 0.0},
     {"delay", NULL, {0.083}, 1.0},
+    {"delay", "measurement", {0.083}, 1.0},
     {"input_lag", NULL, {0.15, 0.3}, 1.3},
     {"slew_limit", NULL, {1.5, 0.2}, 1.0},
     {"rate_dependence", "play_lag", {0.06, 0.7}, 1.0},

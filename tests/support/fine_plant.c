@@ -53,19 +53,24 @@ static double clamp(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-static double drive(plant_t* plant, double u)
+static double delayed(plant_t* plant, double value)
 {
     const size_t length = sizeof plant->history / sizeof plant->history[0];
+    for (size_t i = 0; !plant->started && i < length; ++i) {
+        plant->history[i] = value;
+    }
+    plant->history[plant->steps % length] = value;
+    const size_t late = (size_t)lround(plant->p[0] / plant->dt);
+    return plant->history[(plant->steps + length - late) % length];
+}
+
+static double drive(plant_t* plant, double u)
+{
     if (!plant->started) {
         plant->drive = u;
-        for (size_t i = 0; i < length; ++i) {
-            plant->history[i] = u;
-        }
     }
-    plant->history[plant->steps % length] = u;
-    if (is(plant, "delay")) {
-        const size_t late = (size_t)lround(plant->p[0] / plant->dt);
-        return plant->history[(plant->steps + length - late) % length];
+    if (by(plant, "delay", "")) {
+        return delayed(plant, u);
     }
     if (is(plant, "input_lag")) {
         const double half_range = (plant->model->input_max - plant->model->input_min) / 2;
@@ -440,6 +445,9 @@ static double soft_top(double y, double high, double knee)
 static double sensor(plant_t* plant, double y, double time)
 {
     const double* p = plant->p;
+    if (by(plant, "delay", "measurement")) {
+        return delayed(plant, y);
+    }
     if (is(plant, "output_lag")) {
         plant->place += plant->dt / p[0] * (y - plant->place);
         return plant->place;
