@@ -59,5 +59,6 @@ const effect_t effect_input_lag = {
     .limits = limits,
     .apply = apply,
     .invert = invert,
+    .has_threshold = true,
     .covers = 0.25, // a time that grows, and what is between the samples, make it like a delay or another lag
 };

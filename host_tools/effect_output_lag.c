@@ -40,6 +40,7 @@ const effect_t effect_output_lag = {
     .num_parameters = COUNT_OF(parameters),
     .parameter = parameters,
     .limits = limits,
+    .has_threshold = true,
     .apply = apply,
     .invert = invert,
 };

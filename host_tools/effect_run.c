@@ -197,29 +197,47 @@ hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses
     return hysteresis;
 }
 
-static double nonhysteretic_at(const effect_run_t* run, const model_t* model, double v)
+/// Of the body that stands in, or of the model where that is NULL.
+static double nonhysteretic_at(const effect_run_t* run, const model_t* model, const stand_in_t* body,
+                               double v)
 {
+    if (body != NULL) {
+        return stand_in_nonhysteretic(body, model, v);
+    }
     return run->fast != NULL ? fast_plays_nonhysteretic(run->fast, v) : curve_value(&model->nonhysteretic, v);
 }
 
-/// What the hysteretic part of the material sees of the drive, allocated; into direct[num_samples] what the
-/// nonhysteretic part gives beyond what it would give for the same.
+/// What the hysteretic part of the material sees of the drive, allocated.
 static double* seen_of(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
-                       const double* drive, double* direct)
+                       const double* drive)
 {
     double* seen = xmalloc(run->num_samples * sizeof(double));
     hysteresis_field(hysteresis, run->time, drive, run->num_samples, seen);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        const double own = 1.0 - hysteresis->field.share;
-        const double field = nonhysteretic_at(run, model, seen[i]);
-        direct[i] = own * (nonhysteretic_at(run, model, drive[i]) - field);
-        if (hysteresis->shift != NULL || hysteresis->coercive != NULL) {
-            seen[i] = hysteresis_seen(hysteresis, model, i, seen[i]);
-            seen[i] += hysteresis->shift != NULL ? hysteresis->shift[i] : 0.0;
-            direct[i] += field - nonhysteretic_at(run, model, seen[i]);
-        }
+        seen[i] = hysteresis_seen(hysteresis, model, i, seen[i]);
+        seen[i] += hysteresis->shift != NULL ? hysteresis->shift[i] : 0.0;
     }
     return seen;
+}
+
+/// Adds what the nonhysteretic part gives for the drive and its share of the field beyond what it would give
+/// for what the hysteretic part sees.
+static void add_direct(const effect_run_t* run, const model_t* model, const stand_in_t* body,
+                       const hysteresis_t* hysteresis, const double* drive, const double* seen,
+                       double* output)
+{
+    double* field = xmalloc(run->num_samples * sizeof(double));
+    hysteresis_field(hysteresis, run->time, drive, run->num_samples, field);
+    const double share = hysteresis->field.share;
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        const bool differ = drive[i] < seen[i] || drive[i] > seen[i];
+        const double of_drive = differ ? nonhysteretic_at(run, model, body, drive[i]) : 0.0;
+        const double of_field =
+            differ && share > 0.0 ? nonhysteretic_at(run, model, body, field[i]) : of_drive;
+        const double of_seen = differ ? nonhysteretic_at(run, model, body, seen[i]) : 0.0;
+        output[i] += of_drive + share * (of_field - of_drive) - of_seen;
+    }
+    free(field);
 }
 
 /// The plays' sums over what they see, after the turns of their past.
@@ -244,11 +262,12 @@ static void run_fast(const effect_run_t* run, const model_t* model, const hyster
                      const double* drive, double* output)
 {
     double* sum = xmalloc(run->num_samples * sizeof(double));
-    double* seen = seen_of(run, model, hysteresis, drive, output);
+    double* seen = seen_of(run, model, hysteresis, drive);
     run_fast_plays(run, hysteresis, seen, sum);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        output[i] += nonhysteretic_at(run, model, seen[i]);
+        output[i] = nonhysteretic_at(run, model, NULL, seen[i]);
     }
+    add_direct(run, model, NULL, hysteresis, drive, seen, output);
     hysteresis_from_sums(model, hysteresis, drive, sum, run->num_samples, output);
     free(seen);
     free(sum);
@@ -269,14 +288,10 @@ static void run_plays(const effect_run_t* run, const model_t* model, start_t sta
 static void run_body_alone(const effect_run_t* run, const model_t* model, start_t start,
                            const hysteresis_t* hysteresis, double shift, const double* drive, double* output)
 {
-    double* direct = xmalloc(run->num_samples * sizeof(double));
-    double* seen = seen_of(run, model, hysteresis, drive, direct);
+    double* seen = seen_of(run, model, hysteresis, drive);
     stand_in_run(run->body, model, start, shift, seen, run->num_samples, output);
-    for (size_t i = 0; i < run->num_samples; ++i) {
-        output[i] += direct[i];
-    }
+    add_direct(run, model, run->body, hysteresis, drive, seen, output);
     free(seen);
-    free(direct);
 }
 
 /// The body that stands in, and what the effects change in the plays beyond what they see. Another memory at
@@ -315,11 +330,9 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
 static void add_everett(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
                         const double* drive, double* output)
 {
-    double* direct = xmalloc(run->num_samples * sizeof(double));
-    double* seen = seen_of(run, model, hysteresis, drive, direct);
+    double* seen = seen_of(run, model, hysteresis, drive);
     everett_add(run->everett, hysteresis->turn, hysteresis->num_turns, seen, run->num_samples, output);
     free(seen);
-    free(direct);
 }
 
 static void run_hysteresis(const effect_run_t* run, const model_t* model, start_t start,

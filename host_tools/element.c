@@ -110,31 +110,43 @@ double element_step(element_state_t* s, double input)
     return move_to(s, element_part(s->element, input));
 }
 
-void element_splines(double part, double* spline)
+/// The four splines that are not 0 at a part of the range; returns the first one's number.
+static size_t splines_at(double part, double* value)
 {
     enum { INTERVALS = ELEMENT_CURVE - 3 };
     const double place = part * INTERVALS;
     const size_t i = place < INTERVALS - 1 ? (size_t)place : INTERVALS - 1;
     const double b = place - (double)i;
     const double a = 1 - b;
+    value[0] = a * a * a / 6;
+    value[1] = (1 + 3 * a * (1 + a * b)) / 6;
+    value[2] = (1 + 3 * b * (1 + a * b)) / 6;
+    value[3] = b * b * b / 6;
+    return i;
+}
+
+void element_splines(double part, double* spline)
+{
     for (size_t k = 0; k < ELEMENT_CURVE; k++) {
         spline[k] = 0;
     }
-    spline[i] = a * a * a / 6;
-    spline[i + 1] = (1 + 3 * a * (1 + a * b)) / 6;
-    spline[i + 2] = (1 + 3 * b * (1 + a * b)) / 6;
-    spline[i + 3] = b * b * b / 6;
+    double value[4];
+    const size_t first = splines_at(part, value);
+    for (size_t k = 0; k < 4; k++) {
+        spline[first + k] = value[k];
+    }
 }
 
 static double curve_at(const element_t* e, double part)
 {
-    double spline[ELEMENT_CURVE];
-    element_splines(part, spline);
-    double sum = 0;
-    for (size_t k = 0; k < ELEMENT_CURVE; k++) {
-        sum += spline[k] * e->curve[k];
-    }
-    return sum;
+    double value[4];
+    const double* curve = &e->curve[splines_at(part, value)];
+    return value[0] * curve[0] + value[1] * curve[1] + value[2] * curve[2] + value[3] * curve[3];
+}
+
+double element_nonhysteretic(const element_t* element, double input)
+{
+    return curve_at(element, element_part(element, input));
 }
 
 /// Where the state gives this output at the present input, or as near as an element gets there.

@@ -58,6 +58,8 @@ double element_step(element_state_t* state, double input);
 /// The curve's splines at a part of the range: spline[ELEMENT_CURVE], summing to 1.
 void element_splines(double part, double* spline);
 
+/// The curve at an input [input units].
+double element_nonhysteretic(const element_t* element, double input);
 /// output[num_samples] for input[num_samples] from negative saturation; the first one raised by `shift`, from
 /// where the rest follows.
 void element_run(const element_t* element, double shift, const double* input, size_t num_samples,

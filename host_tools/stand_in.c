@@ -9,3 +9,9 @@ void stand_in_run(const stand_in_t* body, const model_t* model, start_t start, d
         duhem_run(&body->duhem, model, start, shift, input, num_samples, output);
     }
 }
+
+double stand_in_nonhysteretic(const stand_in_t* body, const model_t* model, double input)
+{
+    return body->is_element ? element_nonhysteretic(&body->element, input)
+                            : curve_value(&model->nonhysteretic, input);
+}

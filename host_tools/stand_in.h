@@ -16,4 +16,7 @@ typedef struct {
 void stand_in_run(const stand_in_t* body, const model_t* model, start_t start, double shift,
                   const double* input, size_t num_samples, double* output);
 
+/// What is without memory in it, at an input.
+double stand_in_nonhysteretic(const stand_in_t* body, const model_t* model, double input);
+
 #endif
