@@ -87,8 +87,42 @@ static double left_by(const gap_t* gap, const hypothesis_t* h)
     return series_sum(error, HYPOTHESIS_BLOCKS);
 }
 
+/// By golden section: the value, 0 ... 1, with which the model itself leaves least of the record.
+static void fit_to_model(const gap_t* gap, hypothesis_t* hypothesis, double* parameter)
+{
+    enum { STEPS = 14 };
+    const double part = 0.5 * (sqrt(5) - 1);
+    double low = 0;
+    double high = 1;
+    double inner[2] = {1 - part, part};
+    double left[2];
+    for (size_t k = 0; k < 2; k++) {
+        *parameter = inner[k];
+        left[k] = left_by(gap, hypothesis);
+    }
+    for (int i = 0; i < STEPS; i++) {
+        const size_t worse = left[0] > left[1] ? 0 : 1;
+        const size_t better = 1 - worse;
+        *(worse == 0 ? &low : &high) = inner[worse];
+        inner[worse] = inner[better];
+        left[worse] = left[better];
+        inner[better] = low + high - inner[worse];
+        *parameter = inner[better];
+        left[better] = left_by(gap, hypothesis);
+    }
+    *parameter = left[0] < left[1] ? inner[0] : inner[1];
+}
+
 void shrink_settle(const gap_t* gap, hypothesis_t* hypothesis)
 {
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_t* use = &hypothesis->use[i];
+        for (size_t p = 0; gap->run->body != NULL && p < use->effect->num_parameters; p++) {
+            if (use->effect->parameter[p].of_model) {
+                fit_to_model(gap, hypothesis, &use->parameter[p]);
+            }
+        }
+    }
     const double left = left_by(gap, hypothesis);
     const double tells = left * no_evidence / (double)gap->num_judged;
     for (size_t i = 0; i < hypothesis->num_uses; i++) {

@@ -15,7 +15,8 @@ size_t cause_handed_out(const cause_t* cause, effect_use_t* uses);
 /// Those of the verdict: none where it is unknown.
 size_t diagnosis_handed_out(const diagnosis_t* diagnosis, effect_use_t* uses);
 
-/// Parameters that the record says nothing about (a clip that one sample touches) become neutral: what a fit
+/// Parameters that say what the model's parts hold are fitted to the model, where another body stood in, and
+/// those that the record says nothing about (a clip that one sample touches) become neutral: what a fit
 /// left them at may act on another record.
 void shrink_settle(const gap_t* gap, hypothesis_t* hypothesis);
 

@@ -52,6 +52,8 @@ typedef struct {
     double least, most; ///< what is physical; beyond it a model file is refused
     bool optional;      ///< 0 when a model file leaves it out
     bool is_unit;       ///< in what another counts: searches leave it at its neutral value
+    bool of_model;      ///< says what the identified model's parts hold of the plant's, 0 ... 1: another body
+                        ///< that stood in for a search had its own
 } effect_parameter_t;
 
 /// Bounds and starts of a parameter on one record, for fitting.

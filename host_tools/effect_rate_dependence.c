@@ -24,7 +24,7 @@ static const effect_parameter_t widening_parameter[] = {{"coefficient", "envelop
 
 #define SHARE                                                                                                \
     {                                                                                                        \
-        "share", "1", .least = 0.0, .most = 1.0, .optional = true                                            \
+        "share", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true                          \
     }
 
 static const effect_parameter_t diffusion_parameters[] = {{"tau", "s", AT_LEAST_0}, SHARE};
