@@ -74,7 +74,8 @@ struct effect {
     bool needs_column; ///< exogenous: follows a named auxiliary column
     size_t num_parameters;
     const effect_parameter_t* parameter;
-    bool has_threshold; ///< its first parameter gives no gradient where it does not act: searches try values
+    bool has_threshold; ///< its first parameter gives no gradient where it does not act, or a narrow valley:
+                        ///< searches try values
     /// What is wrong with parameters that are each physical (tau_fast above tau_slow), or NULL. May be NULL.
     const char* (*fault)(const double* parameter);
     /// Puts parameters that a search left in another order into theirs, without a change of what they do. May
