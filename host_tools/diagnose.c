@@ -262,7 +262,7 @@ static void find_grid(work_t* w, double noise)
 static void add_grid(work_t* w)
 {
     for (size_t i = 0; i < effect_count(); i++) {
-        if (strcmp(effect_at(i)->name, "quantization") != 0) {
+        if (!effect_at(i)->rounds) {
             continue;
         }
         const effect_use_t use = {.effect = effect_at(i), .parameter = {w->grid.step, w->grid.offset}};

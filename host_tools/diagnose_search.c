@@ -43,7 +43,7 @@ static int evaluations_of(const hypothesis_t* hypothesis)
 static void add_single(candidates_t* c, const effect_t* effect, const char* column)
 {
     // How coarse a converter is stands in the record's own values (diagnose_grid.h).
-    if (c->count > MAX_SINGLES || effect->superseded || strcmp(effect->name, "quantization") == 0) {
+    if (c->count > MAX_SINGLES || effect->superseded || effect->rounds) {
         return;
     }
     effect_use_t use = {.effect = effect};

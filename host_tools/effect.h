@@ -104,6 +104,7 @@ struct effect {
                      ///< searches
     const char* outside; ///< no effect of the contract's catalogue: a search may find it, the verdict is then
                          ///< "unknown", and this tells what it looks like; NULL: one of the catalogue
+    bool rounds;         ///< to the steps of a converter
     bool clips;          ///< invert leaves what it cannot reach where apply does not give it back
     const char* no_inverse; ///< why the effect has no inverse, as the end of a sentence; NULL: it has one
 };

@@ -34,6 +34,7 @@ static void apply(const effect_run_t* run, const double* parameter, const double
 
 const effect_t effect_quantization = {
     .name = "quantization",
+    .rounds = true,
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -207,37 +207,44 @@ static double nonhysteretic_at(const effect_run_t* run, const model_t* model, co
     return run->fast != NULL ? fast_plays_nonhysteretic(run->fast, v) : curve_value(&model->nonhysteretic, v);
 }
 
-/// What the hysteretic part of the material sees of the drive, allocated.
-static double* seen_of(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
-                       const double* drive)
+/// What parts of the material see of the drive: of the field inside a share of the nonhysteretic part, and
+/// what the hysteretic part sees.
+typedef struct {
+    double *field, *seen; ///< [num_samples], allocated together
+} sight_t;
+
+static sight_t sight_of(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
+                        const double* drive)
 {
-    double* seen = xmalloc(run->num_samples * sizeof(double));
-    hysteresis_field(hysteresis, run->time, drive, run->num_samples, seen);
-    for (size_t i = 0; i < run->num_samples; ++i) {
-        seen[i] = hysteresis_seen(hysteresis, model, i, seen[i]);
-        seen[i] += hysteresis->shift != NULL ? hysteresis->shift[i] : 0.0;
+    const size_t n = run->num_samples;
+    double* field = xmalloc(2 * n * sizeof(double));
+    const sight_t sight = {field, field + n};
+    hysteresis_field(hysteresis, run->time, drive, n, sight.field);
+    for (size_t i = 0; i < n; ++i) {
+        sight.seen[i] = hysteresis_seen(hysteresis, model, i, sight.field[i]);
+        sight.seen[i] += hysteresis->shift != NULL ? hysteresis->shift[i] : 0.0;
     }
-    return seen;
+    return sight;
+}
+
+static void sight_free(sight_t* sight)
+{
+    free(sight->field);
 }
 
 /// Adds what the nonhysteretic part gives for the drive and its share of the field beyond what it would give
 /// for what the hysteretic part sees.
-static void add_direct(const effect_run_t* run, const model_t* model, const stand_in_t* body,
-                       const hysteresis_t* hysteresis, const double* drive, const double* seen,
-                       double* output)
+static void add_direct(const effect_run_t* run, const model_t* model, const stand_in_t* body, double share,
+                       const double* drive, const sight_t* sight, double* output)
 {
-    double* field = xmalloc(run->num_samples * sizeof(double));
-    hysteresis_field(hysteresis, run->time, drive, run->num_samples, field);
-    const double share = hysteresis->field.share;
     for (size_t i = 0; i < run->num_samples; ++i) {
-        const bool differ = drive[i] < seen[i] || drive[i] > seen[i];
-        const double of_drive = differ ? nonhysteretic_at(run, model, body, drive[i]) : 0.0;
-        const double of_field =
-            differ && share > 0.0 ? nonhysteretic_at(run, model, body, field[i]) : of_drive;
-        const double of_seen = differ ? nonhysteretic_at(run, model, body, seen[i]) : 0.0;
-        output[i] += of_drive + share * (of_field - of_drive) - of_seen;
+        const double seen = sight->seen[i];
+        if (drive[i] < seen || drive[i] > seen) {
+            const double direct = nonhysteretic_at(run, model, body, drive[i]);
+            const double shared = share > 0.0 ? nonhysteretic_at(run, model, body, sight->field[i]) : direct;
+            output[i] += direct + share * (shared - direct) - nonhysteretic_at(run, model, body, seen);
+        }
     }
-    free(field);
 }
 
 /// The plays' sums over what they see, after the turns of their past.
@@ -262,14 +269,14 @@ static void run_fast(const effect_run_t* run, const model_t* model, const hyster
                      const double* drive, double* output)
 {
     double* sum = xmalloc(run->num_samples * sizeof(double));
-    double* seen = seen_of(run, model, hysteresis, drive);
-    run_fast_plays(run, hysteresis, seen, sum);
+    sight_t sight = sight_of(run, model, hysteresis, drive);
+    run_fast_plays(run, hysteresis, sight.seen, sum);
     for (size_t i = 0; i < run->num_samples; ++i) {
-        output[i] = nonhysteretic_at(run, model, NULL, seen[i]);
+        output[i] = nonhysteretic_at(run, model, NULL, sight.seen[i]);
     }
-    add_direct(run, model, NULL, hysteresis, drive, seen, output);
+    add_direct(run, model, NULL, hysteresis->field.share, drive, &sight, output);
     hysteresis_from_sums(model, hysteresis, drive, sum, run->num_samples, output);
-    free(seen);
+    sight_free(&sight);
     free(sum);
 }
 
@@ -288,10 +295,10 @@ static void run_plays(const effect_run_t* run, const model_t* model, start_t sta
 static void run_body_alone(const effect_run_t* run, const model_t* model, start_t start,
                            const hysteresis_t* hysteresis, double shift, const double* drive, double* output)
 {
-    double* seen = seen_of(run, model, hysteresis, drive);
-    stand_in_run(run->body, model, start, shift, seen, run->num_samples, output);
-    add_direct(run, model, run->body, hysteresis, drive, seen, output);
-    free(seen);
+    sight_t sight = sight_of(run, model, hysteresis, drive);
+    stand_in_run(run->body, model, start, shift, sight.seen, run->num_samples, output);
+    add_direct(run, model, run->body, hysteresis->field.share, drive, &sight, output);
+    sight_free(&sight);
 }
 
 /// The body that stands in, and what the effects change in the plays beyond what they see. Another memory at
@@ -330,9 +337,9 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
 static void add_everett(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
                         const double* drive, double* output)
 {
-    double* seen = seen_of(run, model, hysteresis, drive);
-    everett_add(run->everett, hysteresis->turn, hysteresis->num_turns, seen, run->num_samples, output);
-    free(seen);
+    sight_t sight = sight_of(run, model, hysteresis, drive);
+    everett_add(run->everett, hysteresis->turn, hysteresis->num_turns, sight.seen, run->num_samples, output);
+    sight_free(&sight);
 }
 
 static void run_hysteresis(const effect_run_t* run, const model_t* model, start_t start,
