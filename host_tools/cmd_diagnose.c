@@ -139,11 +139,12 @@ static outcome_t run_trial(const options_t* given, const model_t* model, start_t
                            const record_t* record, const diagnosis_t* d, trial_t* trial)
 {
     record_t test = {0};
-    outcome_t outcome =
-        record_read(given->test,
-                    &(record_options_t){
-                        .columns = given->columns, .sample_rate = given->sample_rate, .needs_input = true},
-                    &test);
+    outcome_t outcome = record_read(given->test,
+                                    &(record_options_t){.columns = given->columns,
+                                                        .sample_rate = given->sample_rate,
+                                                        .needs_input = true,
+                                                        .may_lack_output = true},
+                                    &test);
     if (outcome == OUTCOME_OK) {
         outcome = trial_run(model, start, d, record, &test, trial);
     }

@@ -136,7 +136,8 @@ static void mind_outside(diagnosis_t* d)
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
-    if (d->is_none || d->num_causes < 2 || hypothesis_outside(d->cause[0].hypothesis) != NULL ||
+    if ((d->is_none && d->num_indistinguishable == 0) || d->num_causes < 2 ||
+        hypothesis_outside(d->cause[0].hypothesis) != NULL ||
         hypothesis_outside(d->cause[1].hypothesis) != NULL ||
         (d->confident && d->num_indistinguishable == 0)) {
         return;
@@ -191,8 +192,9 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
     d->closable = fmax(0, 1 - floor / d->rmse);
 }
 
-/// The verdict's parameters by all samples of a thinned record (up to most_fitted).
-static void fit_on_whole(const work_t* w, const cause_t* verdict)
+/// The verdict's parameters by all samples of a thinned record (up to most_fitted), from what the search
+/// found.
+static void fit_on_whole(const work_t* w, const cause_t* verdict, const hypothesis_t* found)
 {
     const nuisance_t nothing = {0};
     thinned_t fitted = record_thin(w->record, most_fitted, w->scope.first_judged);
@@ -205,7 +207,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict)
                         w->gap.filter[0].variance);
     gap.dead_zone = w->gap.dead_zone;
     hypothesis_t* hypothesis = own(w, verdict);
-    hypothesis_t searched = without_grid(w, hypothesis);
+    hypothesis_t searched = without_grid(w, found);
     hypothesis_fit(&searched, &gap, -1, LAST_EVALUATIONS);
     shrink_settle(&gap, &searched);
     memcpy(hypothesis->use, searched.use, searched.num_uses * sizeof *searched.use);
@@ -337,11 +339,12 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     judge_causes(&w, d);
     mind_scope(&w, d);
     mind_outside(d);
+    const hypothesis_t found = *d->cause[0].hypothesis;
     forecast_causes(&w, d);
     advise(&w, d);
     message_progress("diagnose", 0.9);
     if (w.thinned.record.num_samples < record->num_samples && !d->is_unknown && !d->is_none) {
-        fit_on_whole(&w, &d->cause[0]);
+        fit_on_whole(&w, &d->cause[0], &found);
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);
     d->after = xmalloc(record->num_samples * sizeof *d->after);

@@ -42,7 +42,7 @@ typedef struct {
     size_t num_regions;
     region_t region[WHERE_MAX_REGIONS];
     size_t num_causes; ///< at most DIAGNOSIS_MOST_CAUSES
-    cause_t* cause;    ///< [num_causes] best first
+    cause_t* cause;    ///< [num_causes] the verdict's, then the likeliest first
     size_t num_hypotheses;
     hypothesis_t* hypothesis; ///< owns what the causes point to
     double* before;           ///< [num_samples] the model's output

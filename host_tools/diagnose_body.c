@@ -173,7 +173,7 @@ static nuisance_t element_nuisance(const body_t* body, const element_record_t* c
     return nuisance;
 }
 
-/// Sets `everett`, `misfit` and `nuisance`.
+/// Sets `everett`, `misfit`, `doubt` and `nuisance`.
 static void add_everett(body_t* body, const model_t* model, const record_t* calibration,
                         const record_t* record)
 {
@@ -204,12 +204,12 @@ static void add_everett(body_t* body, const model_t* model, const record_t* cali
 static bool explains_bench(const body_t* body, double left)
 {
     const double noise = body->noise * body->noise;
-    return left * left - noise < half * (body->misfit * body->misfit - noise);
+    return left < body->misfit && left * left - noise < half * (body->misfit * body->misfit - noise);
 }
 
 /// The better of both kinds of elements; sets `stand_in`, `misfit`, `doubt` and `nuisance` by one that is
 /// taken. From negative saturation only.
-static void try_elements(body_t* body, const model_t* model, const record_t* calibration,
+static void try_elements(body_t* body, const model_t* model, double model_misfit, const record_t* calibration,
                          const record_t* record)
 {
     thinned_t thinned = record_thin(calibration, most_calibrated, 0);
@@ -239,7 +239,7 @@ static void try_elements(body_t* body, const model_t* model, const record_t* cal
     }
     if (body->stands_in) {
         const double missed = fmax(body->misfit * body->misfit - body->noise * body->noise, 0);
-        body->doubt = missed / (other_misfit * other_misfit - body->misfit * body->misfit) +
+        body->doubt = missed / (model_misfit * model_misfit - body->misfit * body->misfit) +
                       doubt_of_element[best.element.kind];
         const double errors = errors_of(body, model, START_NEGATIVE_SATURATION, &thinned.record);
         body->nuisance = element_nuisance(body, &fitted, errors, record);
@@ -258,7 +258,7 @@ body_t body_find(const model_t* model, start_t start, const record_t* calibratio
         if (is_visited) {
             add_everett(&body, model, calibration, record);
         }
-        try_elements(&body, model, calibration, record);
+        try_elements(&body, model, model_misfit, calibration, record);
     }
     if (is_visited && !body.stands_in && clearly_less * body.misfit * body.misfit > noise * noise) {
         try_duhem(&body, model, start, calibration, record);

@@ -19,10 +19,11 @@ typedef struct {
     nuisance_t nuisance; ///< on the record
 } body_t;
 
-/// An element or a Duhem body where that leaves clearly less of the calibration than the model, and no more
-/// of the record; else the model's plays and what a Preisach body would add. model_misfit: RMS of what the
-/// model leaves of the calibration; noise likewise. is_visited: whether the calibration has loops like the
-/// record's; without them no tables are learned from it, only elements.
+/// An element where that leaves clearly less of the calibration than the model and what a Preisach body would
+/// add to it, whatever the record looks like; an element that leaves a little less, or a Duhem body that
+/// leaves far less, where it is also no further from the record; else the model's plays and what that body
+/// adds. model_misfit: RMS of what the model leaves of the calibration; noise likewise. is_visited: whether
+/// the calibration has loops like the record's; without them no tables are learned from it, only elements.
 body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,
                  double noise, bool is_visited, const record_t* record);
 void body_free(body_t* body);

@@ -72,9 +72,10 @@ void text_summary(const diagnosis_t* diagnosis, const char* output_unit, char* t
         (void)snprintf(text, size, "%s. It has structure that no effect of the catalogue explains%s%s.", gap,
                        looks[0] != '\0' ? "; it looks like " : "", looks);
     } else if (cause->hypothesis->num_uses == 0) {
-        (void)snprintf(text, size,
-                       "%s. It is no more than the noise and the misfit that the model is known to have.",
-                       gap);
+        (void)snprintf(text, size, "%s. %s", gap,
+                       diagnosis->confident || diagnosis->num_indistinguishable == 0
+                           ? "It is no more than the noise and the misfit that the model is known to have."
+                           : "No effect is likely enough beside none to be named (not confident).");
     } else {
         char names[400];
         char outlook[300];

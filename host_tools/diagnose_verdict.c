@@ -96,6 +96,27 @@ static const double structure_left_at_most = 0.15;
 /// In parts of the floor, what may stand above it before anything is unknown: floors are known no better.
 static const double known_to = 1.5;
 
+/// Whether it is the model with no more than the converter that the record's own values show.
+static bool names_nothing(const cause_t* cause)
+{
+    bool nothing = true;
+    for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
+        nothing = nothing && cause->hypothesis->use[i].effect->rounds;
+    }
+    return nothing;
+}
+
+/// Keeps the likeliest, and the one that names nothing.
+static void keep_most(diagnosis_t* d)
+{
+    for (size_t k = DIAGNOSIS_MOST_CAUSES; k < d->num_causes; k++) {
+        if (names_nothing(&d->cause[k])) {
+            d->cause[DIAGNOSIS_MOST_CAUSES - 1] = d->cause[k];
+        }
+    }
+    d->num_causes = d->num_causes < DIAGNOSIS_MOST_CAUSES ? d->num_causes : DIAGNOSIS_MOST_CAUSES;
+}
+
 /// One cause for each set of names, the better mechanism's.
 static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
 {
@@ -116,7 +137,7 @@ static void weigh(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
         d->cause[k].probability /= total;
     }
     qsort(d->cause, d->num_causes, sizeof *d->cause, by_probability);
-    d->num_causes = d->num_causes < DIAGNOSIS_MOST_CAUSES ? d->num_causes : DIAGNOSIS_MOST_CAUSES;
+    keep_most(d);
 }
 
 /// Puts the model alone first where no cause is enough likelier.
@@ -124,7 +145,7 @@ static void mind_alarms(diagnosis_t* d)
 {
     for (size_t k = 1; k < d->num_causes; k++) {
         const cause_t cause = d->cause[k];
-        if (cause.hypothesis->num_uses == 0 && alarm_from * cause.probability > d->cause[0].probability) {
+        if (names_nothing(&cause) && alarm_from * cause.probability > d->cause[0].probability) {
             memmove(&d->cause[1], &d->cause[0], k * sizeof *d->cause);
             d->cause[0] = cause;
         }

@@ -26,7 +26,8 @@ double scale_least_floor(const scale_t* scale);
 double verdict_score(const scale_t* scale, const hypothesis_t* hypothesis);
 /// The index of the best.
 size_t verdict_best(const scale_t* scale, const candidates_t* candidates);
-/// Fills the causes (but for their shrink), best first, and what follows from them.
+/// Fills the causes (but for their shrink), the verdict's first and then by probability, and what follows
+/// from them.
 void verdict_find(const scale_t* scale, const candidates_t* candidates, diagnosis_t* diagnosis);
 
 #endif

@@ -370,7 +370,8 @@ static void run_mean_field(const effect_run_t* run, const model_t* model, start_
     inner.shift = shift;
     double change = HUGE_VAL;
     for (int i = 0; i < ITERATIONS && change > enough; ++i) {
-        run_hysteresis(run, model, start, &inner, drive, output);
+        hysteresis_t each = inner; // a body that stands in takes the past from it
+        run_hysteresis(run, model, start, &each, drive, output);
         change = 0.0;
         for (size_t t = 1; t < run->num_samples; ++t) {
             const double next = hysteresis_remanent_shift(hysteresis, model, drive[t], output[t]);

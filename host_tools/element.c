@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/// Of the input's range, the largest move that is one step of the midpoint rule.
+/// Of the input's range, the largest move that is one step.
 static const double longest_step = 0.01;
 /// Of the pinning, what the denominator of the wall's slope may not fall below: the walls then jump.
 static const double least_pinning = 0.02;

@@ -1,6 +1,6 @@
 /// A hysteretic element of textbook form beside a curve without memory: output = gain * state + curve(input).
 /// Where a plant's calibration shows that it is of this kind, it stands in for the plays (as duhem.h, of
-/// which both kinds are special cases): with five numbers instead of a grid of slopes, what the calibration
+/// which both kinds are special cases): with seven numbers instead of a grid of slopes, what the calibration
 /// says holds for other work, too.
 ///   Bouc-Wen:         dz/dx = steepness (1 - |z|^order pull), pull one of four by the signs of z and of dx
 ///   Jiles-Atherton:   dW/dh = (A - W) / (pinning sign(dh) - coupling (A - W)), A = L((h + coupling

@@ -23,7 +23,7 @@ typedef struct {
     /// The output, about the major loop's middle, scales by 1 + remanence_stiffness * level +
     /// stiffness_even * (level^2 - 1) + stiffness_odd * (level^3 - level).
     double remanence_stiffness, stiffness_even, stiffness_odd;
-    const loop_middle_t* middle; ///< for the two above; NULL where both are 0
+    const loop_middle_t* middle; ///< for those above; may be NULL where they are 0
     field_t field;               ///< how what the plays see follows the input
     const double* shift; ///< [num_samples] added to what the plays see, where a search knows it; or NULL
     double wear;         ///< the plays' sum moves exp(-wear * travel / input_span) as far
@@ -56,8 +56,7 @@ bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
 bool hysteresis_is_stiffened(const hysteresis_t* hysteresis);
 /// What that makes of an output y at v.
 double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model, double v, double y);
-/// What the plays of such a run see of the input, and what the nonhysteretic part sees of it is
-/// input + share * (field - input): field[num_samples], shift not in it.
+/// What the field inside becomes of the input: field[num_samples]. Of the nonhysteretic part `share` sees it.
 void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const double* input,
                       size_t num_samples, double* field);
 /// What the plays see at a sample of what the field inside has become, the mean fields not in it.

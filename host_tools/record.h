@@ -26,6 +26,7 @@ typedef struct {
     double sample_rate;  ///< --sample-rate [Hz], 0: not given
     bool needs_input;    ///< a missing column is an error only when needed
     bool needs_output;
+    bool may_lack_output; ///< also where `columns` names one
 } record_options_t;
 
 /// Reads a record; "-" is stdin. Errors carry line and column and OUTCOME_BAD_INPUT; *record is then empty.

@@ -144,7 +144,8 @@ outcome_t record_assign_roles(location_t header, const record_options_t* options
     }
     for (size_t role = 0; role < NUM_NAMED_ROLES; ++role) {
         const bool there = find_field(fields, num_fields, names->name[role]) < num_fields;
-        if (!there && (needed[role] || names->given[role])) {
+        const bool may_lack = role == ROLE_OUTPUT && options->may_lack_output;
+        if (!there && (needed[role] || (names->given[role] && !may_lack))) {
             return missing_column(header, role, names->name[role], fields, num_fields);
         }
     }

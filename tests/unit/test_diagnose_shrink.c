@@ -182,6 +182,25 @@ static void test_what_the_record_does_not_show_becomes_neutral(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.05, h.use[1].parameter[0]);
 }
 
+/// A share of 0.4 of this model, for which a body that stood in had found 0.9: found again by golden section,
+/// whose 15th interval is 0.62^15 = 8e-4 wide.
+static void test_a_share_is_fitted_to_the_model_that_is_handed_out(void)
+{
+    const effect_use_t use = {.effect = &effect_rate_dependence_diffusion, .parameter = {0.2, 0.4}};
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    judge_output();
+    hypothesis_t h = hypothesis_of(&use, 1);
+    h.use[0].parameter[1] = 0.9;
+    shrink_settle(&gap, &h);
+    TEST_ASSERT_EQUAL_DOUBLE(0.9, h.use[0].parameter[1]);
+    const stand_in_t body = {.is_element = true};
+    run.body = &body;
+    shrink_settle(&gap, &h);
+    run.body = NULL;
+    TEST_ASSERT_DOUBLE_WITHIN(8e-4, 0.4, h.use[0].parameter[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.2, h.use[0].parameter[0]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -191,5 +210,6 @@ int main(void)
     RUN_TEST(test_an_improbable_effect_is_kept_back);
     RUN_TEST(test_what_makes_up_for_a_drift_is_bound_to_the_record);
     RUN_TEST(test_what_the_record_does_not_show_becomes_neutral);
+    RUN_TEST(test_a_share_is_fitted_to_the_model_that_is_handed_out);
     return UNITY_END();
 }

@@ -262,6 +262,17 @@ static void a_mean_field_acts_beside_another_start(void)
     fast_plays_free(fast);
 }
 
+/// Run around its range, the model itself has the middle that it has in closed form.
+static void the_major_loop_of_a_body_is_run(void)
+{
+    loop_middle_t* found = effect_run_find_middle(&run, &model, START_NEGATIVE_SATURATION);
+    for (int i = 0; i <= 100; ++i) {
+        const double v = run.input_min + run.input_span * i / 100.0;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, loop_middle_at(run.middle, v), loop_middle_at(found, v));
+    }
+    loop_middle_free(found);
+}
+
 /// What a plant of Preisach's kind adds sees the input as late as the plays do.
 static void a_difference_of_preisach_s_kind_is_delayed_with_the_plays(void)
 {
@@ -436,6 +447,7 @@ int main(void)
     RUN_TEST(uneven_samples_give_the_same);
     RUN_TEST(searches_run_the_same);
     RUN_TEST(a_mean_field_acts_beside_another_start);
+    RUN_TEST(the_major_loop_of_a_body_is_run);
     RUN_TEST(a_difference_of_preisach_s_kind_is_delayed_with_the_plays);
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);

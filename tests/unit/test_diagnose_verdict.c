@@ -1,0 +1,146 @@
+#include "diagnose_verdict.h"
+
+#include "classical_model.h"
+#include "effect_catalogue.h"
+#include <math.h>
+#include <stdlib.h>
+#include <unity.h>
+
+enum { SAMPLES = 600, MOST = 3 };
+
+static model_t model;
+static double input[SAMPLES], output[SAMPLES];
+static record_t record;
+static effect_run_t run;
+static gap_t gap;
+static const nuisance_t nothing;
+static hypothesis_t hypotheses[MOST];
+static const effect_use_t rounding = {.effect = &effect_quantization, .parameter = {0.1, 0}};
+static const effect_use_t gain = {.effect = &effect_gain_offset, .parameter = {1.1, 0}};
+
+void setUp(void)
+{
+    model = classical_model(3);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        input[t] = 5 - 4 * cos(0.05 * (double)t);
+    }
+    record = (record_t){.path = "made.csv", .num_samples = SAMPLES, .input = input, .output = output};
+    run = effect_run_new(&model, &record);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, NULL, 0, output);
+    gap = gap_new(&model, &run, START_NEGATIVE_SATURATION, output, NULL, &nothing, 1);
+}
+
+void tearDown(void)
+{
+    for (size_t k = 0; k < MOST; k++) {
+        hypothesis_free(&hypotheses[k]);
+    }
+    gap_free(&gap);
+    effect_run_free(&run);
+    model_free(&model);
+}
+
+/// One that leaves this mean square, none of it structure.
+static void put(size_t index, const effect_use_t* uses, size_t num_uses, double mean_square)
+{
+    hypotheses[index] = hypothesis_of(uses, num_uses);
+    hypotheses[index].fit_rmse = sqrt(mean_square);
+    hypotheses[index].predicted = xmalloc(SAMPLES * sizeof(double));
+    for (size_t t = 0; t < SAMPLES; t++) {
+        hypotheses[index].predicted[t] = output[t];
+    }
+}
+
+static diagnosis_t judge(const scale_t* scale, size_t count)
+{
+    const candidates_t candidates = {.gap = &gap, .count = count, .hypothesis = hypotheses};
+    diagnosis_t d = {0};
+    verdict_find(scale, &candidates, &d);
+    return d;
+}
+
+static const scale_t scale = {.noise = 1, .known = 1, .floor = 1, .grain = 0.3};
+
+/// A hypothesis of one effect more than hypothesis 0, as likely as `odds` times that: by halving what it
+/// leaves.
+static void put_with_odds(const effect_use_t* uses, size_t num_uses, double odds)
+{
+    double low = 0;
+    double high = hypothesis_mean_square(&hypotheses[0]);
+    for (int i = 0; i < 60; i++) {
+        hypothesis_free(&hypotheses[1]);
+        put(1, uses, num_uses, 0.5 * (low + high));
+        diagnosis_t d = judge(&scale, 2);
+        const size_t named = d.cause[0].hypothesis == &hypotheses[1] ? 0 : 1;
+        const double ratio = d.cause[named].probability / d.cause[1 - named].probability;
+        *(ratio > odds ? &low : &high) = 0.5 * (low + high);
+        free(d.cause);
+    }
+}
+
+/// The stated odds are 6, whether or not a converter is known to be in all of them.
+static void check_alarm(const effect_use_t* uses, size_t num_known)
+{
+    put(0, uses + 1, num_known, 2);
+    put_with_odds(uses, num_known + 1, 5.9);
+    diagnosis_t d = judge(&scale, 2);
+    TEST_ASSERT_EQUAL_PTR(&hypotheses[0], d.cause[0].hypothesis);
+    TEST_ASSERT_FALSE(d.confident);
+    TEST_ASSERT_FALSE(d.is_unknown);
+    TEST_ASSERT_EQUAL_UINT(1, d.num_indistinguishable);
+    free(d.cause);
+    put_with_odds(uses, num_known + 1, 6.1);
+    d = judge(&scale, 2);
+    TEST_ASSERT_EQUAL_PTR(&hypotheses[1], d.cause[0].hypothesis);
+    free(d.cause);
+}
+
+static void test_nothing_is_named_that_is_hardly_likelier_than_nothing(void)
+{
+    const effect_use_t uses[] = {gain};
+    check_alarm(uses, 0);
+}
+
+static void test_nor_beside_a_known_converter(void)
+{
+    const effect_use_t uses[] = {gain, rounding};
+    check_alarm(uses, 1);
+}
+
+/// Of 100 above the floor the best leaves 24 or 26; the floor is far below either.
+static void test_what_leaves_over_a_quarter_is_unknown(void)
+{
+    const effect_use_t uses[] = {gain};
+    for (int more = 0; more < 2; more++) {
+        put(0, NULL, 0, 101);
+        put(1, uses, 1, more ? 27 : 25);
+        diagnosis_t d = judge(&scale, 2);
+        TEST_ASSERT_EQUAL(more == 1, d.is_unknown);
+        free(d.cause);
+        hypothesis_free(&hypotheses[0]);
+        hypothesis_free(&hypotheses[1]);
+    }
+}
+
+/// The body leaves 1 on its bench and is expected to leave 4 here; what leaves 2 shows that it leaves 3 at
+/// most.
+static void test_the_floor_is_lowered_by_what_is_left(void)
+{
+    scale_t lowered = {.noise = 1, .known = 1, .floor = 4, .grain = 1};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.5, scale_least_floor(&lowered));
+    scale_lower(&lowered, 2);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3, lowered.floor);
+    TEST_ASSERT_TRUE(lowered.grain < 1);
+    scale_lower(&lowered, 0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1, lowered.floor);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_nothing_is_named_that_is_hardly_likelier_than_nothing);
+    RUN_TEST(test_nor_beside_a_known_converter);
+    RUN_TEST(test_what_leaves_over_a_quarter_is_unknown);
+    RUN_TEST(test_the_floor_is_lowered_by_what_is_left);
+    return UNITY_END();
+}
