@@ -125,11 +125,11 @@ typedef struct {
     bool is_of_one_record; ///< "transferable": false in the model file: fitted to one record's own course
 } effect_use_t;
 
-/// The middle of the major loop of what the run's `body` or `everett` makes of the model.
-loop_middle_t* effect_run_find_middle(const effect_run_t* run, const model_t* model, start_t start);
 /// The run's description over a record (time, or 1 s a sample without it).
 effect_run_t effect_run_new(const model_t* model, const record_t* record);
 void effect_run_free(effect_run_t* run);
+/// The middle of the major loop of what the run's `body` or `everett` makes of the model.
+loop_middle_t* effect_run_find_middle(const effect_run_t* run, const model_t* model, start_t start);
 
 /// The model with effects over the run's input, from `start`: output[num_samples]. uses in any order; applied
 /// in the catalogue's. A model's own `effects` are not read. It is the second of these after the first:

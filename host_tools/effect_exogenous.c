@@ -71,32 +71,30 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     }
 }
 
+/// Adds factor * q to the series that the hysteresis follows, which begins at 0.
+static void follow(const effect_run_t* run, double factor, double bend, const double* column, double** series)
+{
+    if (column == NULL || !(fabs(factor) > 0.0)) {
+        return;
+    }
+    if (*series == NULL) {
+        *series = xcalloc(run->num_samples, sizeof **series);
+    }
+    for (size_t i = 0; i < run->num_samples; ++i) {
+        (*series)[i] += factor * law(bend, column[i]);
+    }
+}
+
 static void configure(const effect_run_t* run, const double* parameter, const double* column,
                       hysteresis_t* hysteresis)
 {
-    if (column == NULL || !(fabs(parameter[WIDTH]) > 0.0)) {
-        return;
-    }
-    if (hysteresis->width == NULL) {
-        hysteresis->width = xcalloc(run->num_samples, sizeof(double));
-    }
-    for (size_t i = 0; i < run->num_samples; ++i) {
-        hysteresis->width[i] += parameter[WIDTH] * law(parameter[BEND], column[i]);
-    }
+    follow(run, parameter[WIDTH], parameter[BEND], column, &hysteresis->width);
 }
 
 static void configure_coercive(const effect_run_t* run, const double* parameter, const double* column,
                                hysteresis_t* hysteresis)
 {
-    if (column == NULL || !(fabs(parameter[COERCIVE]) > 0.0)) {
-        return;
-    }
-    if (hysteresis->coercive == NULL) {
-        hysteresis->coercive = xcalloc(run->num_samples, sizeof(double));
-    }
-    for (size_t i = 0; i < run->num_samples; ++i) {
-        hysteresis->coercive[i] += parameter[COERCIVE] * law(parameter[COERCIVE_BEND], column[i]);
-    }
+    follow(run, parameter[COERCIVE], parameter[COERCIVE_BEND], column, &hysteresis->coercive);
 }
 
 const effect_t effect_exogenous = {

@@ -99,9 +99,9 @@ static void configure_stiffness(const effect_run_t* run, const double* parameter
 {
     (void)run;
     (void)column;
-    hysteresis->remanence_stiffness += parameter[STIFFNESS];
-    hysteresis->stiffness_even += parameter[EVEN];
-    hysteresis->stiffness_odd += parameter[ODD];
+    hysteresis->stiffness.by_level += parameter[STIFFNESS];
+    hysteresis->stiffness.even += parameter[EVEN];
+    hysteresis->stiffness.odd += parameter[ODD];
 }
 
 const effect_t effect_noncongruency_product = {

@@ -393,13 +393,8 @@ void effect_simulate_hysteresis(const effect_run_t* run, const model_t* model, s
     apply_stage(run, uses, num_uses, EFFECT_DRIVE, drive);
     hysteresis_t hysteresis = effect_hysteresis(run, uses, num_uses);
     // Acts on the whole output, whatever body gives it.
-    const hysteresis_t stiffness = {.remanence_stiffness = hysteresis.remanence_stiffness,
-                                    .stiffness_even = hysteresis.stiffness_even,
-                                    .stiffness_odd = hysteresis.stiffness_odd,
-                                    .middle = hysteresis.middle};
-    hysteresis.remanence_stiffness = 0.0;
-    hysteresis.stiffness_even = 0.0;
-    hysteresis.stiffness_odd = 0.0;
+    const hysteresis_t stiffness = {.stiffness = hysteresis.stiffness, .middle = hysteresis.middle};
+    hysteresis.stiffness = (stiffness_t){0};
     hysteresis_t without_field = hysteresis;
     without_field.remanence_field = 0.0;
     if (fabs(hysteresis.remanence_field) > 0.0 && run->fast != NULL &&

@@ -36,8 +36,8 @@ void hysteresis_forget_past(hysteresis_t* hysteresis)
 
 bool hysteresis_is_stiffened(const hysteresis_t* hysteresis)
 {
-    return differs(hysteresis->remanence_stiffness) || differs(hysteresis->stiffness_even) ||
-           differs(hysteresis->stiffness_odd);
+    return differs(hysteresis->stiffness.by_level) || differs(hysteresis->stiffness.even) ||
+           differs(hysteresis->stiffness.odd);
 }
 
 bool hysteresis_sees_alone(const hysteresis_t* hysteresis)
@@ -319,8 +319,8 @@ double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model
         return y;
     }
     const double at = level(model, v);
-    const double factor = hysteresis->remanence_stiffness * at +
-                          (at * at - 1.0) * (hysteresis->stiffness_even + at * hysteresis->stiffness_odd);
+    const double factor = hysteresis->stiffness.by_level * at +
+                          (at * at - 1.0) * (hysteresis->stiffness.even + at * hysteresis->stiffness.odd);
     return y + factor * (y - loop_middle_at(hysteresis->middle, v));
 }
 

@@ -7,6 +7,12 @@
 #include "loop_middle.h"
 #include "model.h"
 
+/// How the output's slope goes with the remanence: about the major loop's middle it scales by 1 + by_level *
+/// level + even * (level^2 - 1) + odd * (level^3 - level).
+typedef struct {
+    double by_level, even, odd;
+} stiffness_t;
+
 /// What effects set; hysteresis_neutral() does nothing.
 typedef struct {
     double play_lag;   ///< [s] every play follows where the rate-independent rule would put it with this time
@@ -20,9 +26,7 @@ typedef struct {
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
     double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
     double remanence_field; ///< the plays see v + remanence_field * half range * the output's remanence
-    /// The output, about the major loop's middle, scales by 1 + remanence_stiffness * level +
-    /// stiffness_even * (level^2 - 1) + stiffness_odd * (level^3 - level).
-    double remanence_stiffness, stiffness_even, stiffness_odd;
+    stiffness_t stiffness;
     const loop_middle_t* middle; ///< for those above; may be NULL where they are 0
     field_t field;               ///< how what the plays see follows the input
     const double* shift; ///< [num_samples] added to what the plays see, where a search knows it; or NULL

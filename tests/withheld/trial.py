@@ -1,4 +1,5 @@
 """One case through the command line alone: identify, diagnose, simulate. Knows records, never truths."""
+import csv
 import json
 import os
 import resource
@@ -42,11 +43,11 @@ def prediction(hyst, model, record, out, options):
 
 def write_planned(test, path):
     """The unseen record without its output: the work that is planned, whose shrink is to be foretold."""
-    with open(test, encoding="utf-8") as file:
-        rows = [line.rstrip("\n").split(",") for line in file]
+    with open(test, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
     kept = [k for k, name in enumerate(rows[0]) if name != "output"]
-    with open(path, "w", encoding="utf-8") as file:
-        file.writelines(",".join(row[k] for k in kept) + "\n" for row in rows)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([row[k] for k in kept] for row in rows)
 
 
 def run_trial(hyst, folder, work, options=()):
