@@ -39,29 +39,12 @@ static void apply(const effect_run_t* run, const double* parameter, const double
     free(given);
 }
 
-#define NO_INVERSE "the response can only come later than the command; ask for the output earlier instead"
+/// What both mechanisms share.
+#define DELAY(its_stage)                                                                                     \
+    .name = "delay", .stage = (its_stage), .transferable = true, .num_parameters = COUNT_OF(parameters),     \
+    .parameter = parameters, .limits = limits, .has_threshold = true, .apply = apply,                        \
+    .no_inverse = "the response can only come later than the command; ask for the output earlier instead"
 
-const effect_t effect_delay = {
-    .name = "delay",
-    .stage = EFFECT_DRIVE,
-    .transferable = true,
-    .num_parameters = COUNT_OF(parameters),
-    .parameter = parameters,
-    .limits = limits,
-    .has_threshold = true,
-    .apply = apply,
-    .no_inverse = NO_INVERSE,
-};
+const effect_t effect_delay = {DELAY(EFFECT_DRIVE)};
 
-const effect_t effect_delay_measurement = {
-    .name = "delay",
-    .mechanism = "measurement",
-    .stage = EFFECT_SENSOR,
-    .transferable = true,
-    .num_parameters = COUNT_OF(parameters),
-    .parameter = parameters,
-    .limits = limits,
-    .has_threshold = true,
-    .apply = apply,
-    .no_inverse = NO_INVERSE,
-};
+const effect_t effect_delay_measurement = {DELAY(EFFECT_SENSOR), .mechanism = "measurement"};
