@@ -181,7 +181,7 @@ static double correction_of(const work_t* w)
 
 static void describe_gap(const work_t* w, diagnosis_t* d)
 {
-    const double floor = sqrt(w->scale.floor + (w->run.body != NULL ? w->correction : 0));
+    const double floor = sqrt(w->scale.floor + w->correction);
     d->num_samples = w->record->num_samples;
     d->num_judged = w->gap.num_judged;
     d->scope = w->scope;

@@ -2,7 +2,7 @@
 
 #include "duhem_fit.h"
 #include "element_fit.h"
-#include "everett.h"
+#include "everett_fit.h"
 #include "record_thin.h"
 #include "reference.h"
 #include "series.h"
@@ -41,28 +41,6 @@ static bool is_near(const model_t* model, start_t start, const stand_in_t* body,
     return with <= no_more * without;
 }
 
-/// How many neighbouring samples of a residual count as one independent: 1 + 2 sum of its autocorrelation, to
-/// where that has died out.
-static double correlation_of(const double* residual, size_t n)
-{
-    double energy = 0;
-    for (size_t t = 0; t < n; t++) {
-        energy += residual[t] * residual[t];
-    }
-    double sum = 1;
-    for (size_t lag = 1; lag < n / 10; lag++) {
-        double product = 0;
-        for (size_t t = lag; t < n; t++) {
-            product += residual[t] * residual[t - lag];
-        }
-        if (!(product > 0.05 * energy)) {
-            break;
-        }
-        sum += 2 * product / energy;
-    }
-    return sum;
-}
-
 typedef struct {
     const body_t* body;
     const model_t* model;
@@ -71,6 +49,7 @@ typedef struct {
     duhem_state_t state;
     double derivative[DUHEM_FREE];
     everett_past_t past;
+    const double* model_output;
     const double* derivatives; ///< [samples][ELEMENT_FREE] of an element
 } rows_t;
 
@@ -100,7 +79,7 @@ static void everett_rows(void* context, size_t begin, size_t end, double* deriva
         r->past = everett_start(r->model);
     }
     for (size_t t = begin; t < end; t++) {
-        everett_step(&r->past, r->input[t], &derivatives[(t - begin) * EVERETT_FREE]);
+        everett_step(&r->past, r->input[t], r->model_output[t], &derivatives[(t - begin) * EVERETT_FREE]);
     }
 }
 
@@ -128,7 +107,7 @@ static double errors_of(const body_t* body, const model_t* model, start_t start,
         residual[t] = calibration->output[t] - residual[t];
     }
     const double size = body->misfit / body->noise;
-    const double errors = size * size * correlation_of(residual, n);
+    const double errors = size * size * series_correlation(residual, n);
     free(residual);
     return errors;
 }
@@ -177,27 +156,22 @@ static nuisance_t element_nuisance(const body_t* body, const element_record_t* c
 static void add_everett(body_t* body, const model_t* model, const record_t* calibration,
                         const record_t* record)
 {
-    const size_t n = calibration->num_samples;
     double* precision = xmalloc((size_t)EVERETT_FREE * EVERETT_FREE * sizeof *precision);
-    double* difference = xmalloc(n * sizeof *difference);
-    reference_run(model, START_NEGATIVE_SATURATION, calibration->input, n, difference);
-    for (size_t t = 0; t < n; t++) {
-        difference[t] = calibration->output[t] - difference[t];
-    }
+    double* model_output = xmalloc(record->num_samples * sizeof *model_output);
     const double beyond_noise = body->misfit * body->misfit - body->noise * body->noise;
-    const double left = everett_fit(model, calibration->input, difference, n, correlation_of(difference, n),
-                                    few * sqrt(beyond_noise), body->everett.value, precision);
-    body->everett.input_min = model->input_min;
-    body->everett.input_max = model->input_max;
+    double left;
+    body->everett = everett_fit(model, calibration->input, calibration->output, calibration->num_samples,
+                                few * sqrt(beyond_noise), precision, &left);
     body->has_everett = true;
     body->misfit = fmin(left, body->misfit);
     body->doubt = doubt_of_tables;
     scale(precision, EVERETT_FREE, 1 / (left * left));
-    rows_t rows = {.body = body, .model = model, .input = record->input};
+    reference_run(model, START_NEGATIVE_SATURATION, record->input, record->num_samples, model_output);
+    rows_t rows = {.model = model, .input = record->input, .model_output = model_output};
     body->nuisance = nuisance_new(precision, EVERETT_FREE, record->num_samples, least_energy * left * left,
                                   everett_rows, &rows);
     free(precision);
-    free(difference);
+    free(model_output);
 }
 
 /// Without a look at the record, which an effect may have moved further than the bodies differ by.

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /// Grain in parts of floor and gap.
-static const double floor_grain = 0.2;
+static const double floor_grain = 0.14;
 static const double gap_grain = 1e-3;
 /// Where an explanation leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 1.5;

@@ -334,11 +334,15 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
 }
 
 /// It has the plays' past and sees what they see.
-static void add_everett(const effect_run_t* run, const model_t* model, const hysteresis_t* hysteresis,
-                        const double* drive, double* output)
+static void add_everett(const effect_run_t* run, const model_t* model, start_t start,
+                        const hysteresis_t* hysteresis, const double* drive, double* output)
 {
     sight_t sight = sight_of(run, model, hysteresis, drive);
-    everett_add(run->everett, hysteresis->turn, hysteresis->num_turns, sight.seen, run->num_samples, output);
+    const hysteresis_t past = {.turn = hysteresis->turn, .num_turns = hysteresis->num_turns};
+    double* plain = xmalloc(run->num_samples * sizeof(double));
+    run_plays(run, model, start, &past, sight.seen, plain);
+    everett_add(run->everett, past.turn, past.num_turns, sight.seen, plain, run->num_samples, output);
+    free(plain);
     sight_free(&sight);
 }
 
@@ -351,7 +355,7 @@ static void run_hysteresis(const effect_run_t* run, const model_t* model, start_
         run_plays(run, model, start, hysteresis, drive, output);
     }
     if (run->everett != NULL) {
-        add_everett(run, model, hysteresis, drive, output);
+        add_everett(run, model, start, hysteresis, drive, output);
     }
 }
 

@@ -1,21 +1,27 @@
 /// What a plant of Preisach's kind does beside a GPI model. Both wipe out and are congruent, so their
 /// difference follows from one function of two reversals, the Everett function E(alpha, beta), and is linear
-/// in its values on a grid. Source: I. D. Mayergoyz, Mathematical Models of Hysteresis (1991), ch. 1.
+/// in its coefficients. A model of few plays is stepped where a plant's function is smooth; what is fitted is
+/// therefore a smooth function and a share of the model, which may take some of the model itself away.
+/// Source: I. D. Mayergoyz, Mathematical Models of Hysteresis (1991), ch. 1.
 #ifndef HYST_HOST_EVERETT_H
 #define HYST_HOST_EVERETT_H
 
 #include "model.h"
 
 enum {
-    EVERETT_CELLS = 20,                                      ///< over the input's range
-    EVERETT_NODES = EVERETT_CELLS * (EVERETT_CELLS + 1) / 2, ///< alpha > beta; E(alpha, alpha) = 0
-    EVERETT_FREE = EVERETT_NODES + 1,                        ///< and a constant
-    EVERETT_MOST_EXTREMES = 64                               ///< that are remembered
+    EVERETT_CELLS = 16,                                      ///< over the input's range
+    EVERETT_BASIS = EVERETT_CELLS + 3,                       ///< cubic B-splines over them
+    EVERETT_NODES = EVERETT_BASIS * (EVERETT_BASIS - 1) / 2, ///< products of two; E(beta, alpha) = -E
+    EVERETT_CONSTANT = EVERETT_NODES,
+    EVERETT_SHARE,             ///< of the model's output as a part of what that spans
+    EVERETT_FREE,              ///< coefficients
+    EVERETT_MOST_EXTREMES = 64 ///< that are remembered
 };
 
 /// The reversals that the memory holds, as parts of the range: a minimum, a maximum, a minimum ...
 typedef struct {
     double input_min, input_max;
+    double model_span;
     double extreme[EVERETT_MOST_EXTREMES];
     size_t count;
     double present;
@@ -23,27 +29,23 @@ typedef struct {
 
 /// Negative saturation.
 everett_past_t everett_start(const model_t* model);
-/// Moves to `input`, limited to the range; row[EVERETT_FREE]: the difference's derivatives by the nodes'
-/// values and the constant.
-void everett_step(everett_past_t* past, double input, double* row);
+/// Moves to `input`, limited to the range, where the model gives model_output; row[EVERETT_FREE]: the
+/// difference's derivatives by the coefficients.
+void everett_step(everett_past_t* past, double input, double model_output, double* row);
 
 /// The difference itself.
 typedef struct {
     double input_min, input_max;
-    double value[EVERETT_FREE];
+    double model_span;
+    double value[EVERETT_FREE]; ///< coefficients [output]
 } everett_t;
 
+everett_t everett_none(const model_t* model);
+/// The coefficient of the product of the splines alpha > beta.
+size_t everett_node(size_t alpha, size_t beta);
 /// Adds it over an input[num_samples] from negative saturation, ahead of which the input turned at
-/// turn[num_turns], to output[num_samples].
+/// turn[num_turns], to output[num_samples]. model_output[num_samples]: what the model gives there.
 void everett_add(const everett_t* everett, const double* turn, size_t num_turns, const double* input,
-                 size_t num_samples, double* output);
-
-/// Fits value[EVERETT_FREE] to difference[num_samples], output units, over an input from negative saturation:
-/// as smooth as predicts stretches best that the fit has not seen. precision[EVERETT_FREE][EVERETT_FREE]:
-/// upper triangle of the values' inverse covariance for errors of variance 1 of which `correlation` count as
-/// one independent, where values beyond `largest` [output] are not expected. Returns the RMS that is left of
-/// unseen stretches.
-double everett_fit(const model_t* model, const double* input, const double* difference, size_t num_samples,
-                   double correlation, double largest, double* value, double* precision);
+                 const double* model_output, size_t num_samples, double* output);
 
 #endif

@@ -40,3 +40,23 @@ double series_span(const double* values, size_t count)
     }
     return high - low;
 }
+
+double series_correlation(const double* values, size_t count)
+{
+    double energy = 0;
+    for (size_t t = 0; t < count; t++) {
+        energy += values[t] * values[t];
+    }
+    double sum = 1;
+    for (size_t lag = 1; lag < count / 10; lag++) {
+        double product = 0;
+        for (size_t t = lag; t < count; t++) {
+            product += values[t] * values[t - lag];
+        }
+        if (!(product > 0.05 * energy)) {
+            break;
+        }
+        sum += 2 * product / energy;
+    }
+    return sum;
+}

@@ -10,5 +10,8 @@ double series_mean(const double* values, size_t count);
 double series_mean_square(const double* a, const double* b, size_t count);
 /// The greatest value less the least.
 double series_span(const double* values, size_t count);
+/// How many neighbouring values count as one independent: 1 + 2 sum of their autocorrelation, to where that
+/// has died out.
+double series_correlation(const double* values, size_t count);
 
 #endif

@@ -107,8 +107,8 @@ static void run_preisach(const double* input, double* output)
     }
 }
 
-/// Its plays stay, with what they miss, though 1.5 times the gain acts on the record. A play's bend in a cell
-/// h wide is off by at most h / 4 times its weight over the range (test_everett.c): 4 the plant's, 2 the
+/// Its plays stay, with what they miss, though 1.5 times the gain acts on the record. A play's bend is off by
+/// at most sqrt(2 / 3) / 2 cells times its weight over the range (test_everett.c): 4 the plant's, 2 the
 /// model's.
 static void test_a_plant_of_preisach_s_kind_keeps_its_plays(void)
 {
@@ -121,7 +121,7 @@ static void test_a_plant_of_preisach_s_kind_keeps_its_plays(void)
     body_t body = find();
     TEST_ASSERT_FALSE(body.stands_in);
     TEST_ASSERT_TRUE(body.has_everett);
-    const double most = (4.0 + 2.0) * 0.25 / EVERETT_CELLS;
+    const double most = (4.0 + 2.0) * 0.5 * sqrt(2.0 / 3) / EVERETT_CELLS;
     TEST_ASSERT_TRUE(body.misfit < sqrt(most * most + noise * noise));
     TEST_ASSERT_TRUE(misfit() > 2 * most);
     body_free(&body);

@@ -276,7 +276,7 @@ static void the_major_loop_of_a_body_is_run(void)
 /// What a plant of Preisach's kind adds sees the input as late as the plays do.
 static void a_difference_of_preisach_s_kind_is_delayed_with_the_plays(void)
 {
-    everett_t everett = {.input_min = model.input_min, .input_max = model.input_max};
+    everett_t everett = everett_none(&model);
     for (size_t k = 0; k < EVERETT_FREE; ++k) {
         everett.value[k] = 0.1 * sin((double)k);
     }

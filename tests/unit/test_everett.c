@@ -1,5 +1,7 @@
-#include "everett.h"
+#include "everett_fit.h"
 #include "random.h"
+#include "reference.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <unity.h>
@@ -8,8 +10,8 @@ enum { SAMPLES = 3000 };
 
 static model_t model;
 static double input[SAMPLES];
-static double difference[SAMPLES];
-static double value[EVERETT_FREE];
+static double output[SAMPLES];
+static double model_output[SAMPLES];
 static double* precision;
 
 void setUp(void)
@@ -45,10 +47,12 @@ static double play(double v, double radius, double state)
 
 static double held_out(double (*body)(size_t t))
 {
+    double left;
     for (size_t t = 0; t < SAMPLES; t++) {
-        difference[t] = body(t);
+        output[t] = body(t);
     }
-    return everett_fit(&model, input, difference, SAMPLES, 1, 10, value, precision);
+    (void)everett_fit(&model, input, output, SAMPLES, 10, precision, &left);
+    return left;
 }
 
 static double line(size_t t)
@@ -56,8 +60,7 @@ static double line(size_t t)
     return 0.4 + 0.3 * (input[t] + 2) / 8;
 }
 
-/// A radius of two cells: E(alpha, beta) = max(0, alpha - beta - 2 r) bends along a line through nodes, so
-/// that the grid holds it but in the cells on that line.
+/// E(alpha, beta) = max(0, alpha - beta - 2 r).
 static double one_play(size_t t)
 {
     static double state;
@@ -70,25 +73,45 @@ static double rms(void)
     double sum = 0;
     double mean = 0;
     for (size_t t = 0; t < SAMPLES; t++) {
-        mean += difference[t] / SAMPLES;
+        mean += output[t] / SAMPLES;
     }
     for (size_t t = 0; t < SAMPLES; t++) {
-        sum += (difference[t] - mean) * (difference[t] - mean) / SAMPLES;
+        sum += (output[t] - mean) * (output[t] - mean) / SAMPLES;
     }
     return sqrt(sum);
 }
 
-/// E = 0.3 (alpha - beta) is on the grid exactly; what the pull towards 0 leaves is less than a hundredth.
+/// E = 0.3 (alpha - beta) is in the splines exactly; what the pull towards 0 leaves is less than a hundredth.
 static void test_a_line_is_predicted(void)
 {
     TEST_ASSERT_TRUE(held_out(line) < 0.01 * rms());
 }
 
-/// The bend of a cell h wide is off by at most h / 4 in the two triangles that it cuts; the loop's width is 4
-/// h: a sixteenth of it, taken here against the output's RMS.
+/// Schoenberg's spline of such a bend, whose coefficients are the function's values at their places, is off
+/// by at most half of the places' mean distance, for the product of two cubic ones at most sqrt(2 / 3) cells.
 static void test_a_play_is_predicted(void)
 {
-    TEST_ASSERT_TRUE(held_out(one_play) < 0.25 / EVERETT_CELLS);
+    TEST_ASSERT_TRUE(held_out(one_play) < 0.5 * sqrt(2.0 / 3) / EVERETT_CELLS);
+}
+
+/// A stepped model, and a plant with half of its steps: they are in the share exactly.
+static void test_a_model_s_own_steps_are_taken_away(void)
+{
+    model.nonhysteretic = curve_linear(0.3, 0);
+    model_set_num_plays(&model, 1);
+    model.radius[0] = 1.3;
+    model.weight[0] = 2;
+    reference_run(&model, START_NEGATIVE_SATURATION, input, SAMPLES, model_output);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] = 0.5 * model_output[t] + line(t);
+    }
+    double left;
+    const everett_t everett = everett_fit(&model, input, output, SAMPLES, 10, precision, &left);
+    TEST_ASSERT_TRUE(left < 0.01 * rms());
+    const double share = everett.value[EVERETT_SHARE] / everett.model_span;
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, -0.5, share);
+    // Up and down the range: 0.3 (6 - -2) nonhysteretic, and of the play the width less both radii.
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.3 * 8 + 2 * (8 - 2 * 1.3), everett.model_span);
 }
 
 /// After a loop closed, the coefficients are those of a run that never made it: wiping-out.
@@ -99,15 +122,15 @@ static void test_closed_loops_are_forgotten(void)
     everett_past_t past = everett_start(&model);
     const double looped[] = {4, 1, 3, 2, 2.5, 5};
     for (size_t k = 0; k < sizeof looped / sizeof looped[0]; k++) {
-        everett_step(&past, looped[k], with);
+        everett_step(&past, looped[k], 3, with);
     }
     everett_past_t straight = everett_start(&model);
-    everett_step(&straight, 5, without);
+    everett_step(&straight, 5, 3, without);
     TEST_ASSERT_EQUAL_DOUBLE_ARRAY(without, with, EVERETT_FREE);
     // And more nested reversals than are remembered neither overrun nor leave anything but numbers.
     for (size_t k = 0; k < 3 * EVERETT_MOST_EXTREMES; k++) {
         const double swing = 3.0 * pow(0.98, (double)k);
-        everett_step(&past, k % 2 == 0 ? 2 - swing : 2 + swing, with);
+        everett_step(&past, k % 2 == 0 ? 2 - swing : 2 + swing, 3, with);
     }
     for (size_t k = 0; k < EVERETT_FREE; k++) {
         TEST_ASSERT_TRUE(isfinite(with[k]));
@@ -118,26 +141,31 @@ static void test_closed_loops_are_forgotten(void)
 static void test_a_run_is_the_sum_of_its_steps(void)
 {
     static const double turn[] = {3, -1, 2};
-    everett_t everett = {.input_min = model.input_min, .input_max = model.input_max};
+    everett_t everett = everett_none(&model);
     random_t random = random_new(8);
     for (size_t k = 0; k < EVERETT_FREE; k++) {
         everett.value[k] = random_uniform(&random, -1, 1);
     }
-    static double output[SAMPLES];
-    everett_add(&everett, turn, 3, input, SAMPLES, output);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        model_output[t] = random_uniform(&random, -1, 1);
+        output[t] = 0;
+    }
+    everett_add(&everett, turn, 3, input, model_output, SAMPLES, output);
     everett_past_t past = everett_start(&model);
     double row[EVERETT_FREE];
     for (size_t k = 0; k < 3; k++) {
-        everett_step(&past, turn[k], row);
+        everett_step(&past, turn[k], 0, row);
     }
     for (size_t t = 0; t < SAMPLES; t++) {
-        everett_step(&past, input[t], row);
+        everett_step(&past, input[t], model_output[t], row);
         double sum = 0;
         for (size_t k = 0; k < EVERETT_FREE; k++) {
             sum += row[k] * everett.value[k];
         }
-        // At most as many terms of at most 1 as extremes and cells' corners.
-        TEST_ASSERT_DOUBLE_WITHIN(8 * EVERETT_MOST_EXTREMES * 1e-15, sum, output[t]);
+        // Of each extreme 16 products of splines, which sum to 1, in two orders; then as many terms as
+        // coefficients.
+        TEST_ASSERT_DOUBLE_WITHIN((2 * 16 * EVERETT_MOST_EXTREMES + EVERETT_FREE) * DBL_EPSILON, sum,
+                                  output[t]);
     }
 }
 
@@ -146,6 +174,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_line_is_predicted);
     RUN_TEST(test_a_play_is_predicted);
+    RUN_TEST(test_a_model_s_own_steps_are_taken_away);
     RUN_TEST(test_closed_loops_are_forgotten);
     RUN_TEST(test_a_run_is_the_sum_of_its_steps);
     return UNITY_END();
