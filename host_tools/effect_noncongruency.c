@@ -5,7 +5,8 @@
 ///                 cancel, so that each cycle also shifts the output
 /// and two that leave the middle m(v) of the major loop alone, which the calibration already shows:
 ///     remanence_field:     the plays see v + field * half range * (y - m(v)) / half span: a mean field of
-///                          the remanent part of the output alone
+///                          the remanent part of the output alone; of the nonhysteretic part `share` sees it
+///                          too, 0 when left out
 ///     remanence_stiffness: y' = y + (stiffness * level + even * (level^2 - 1) + odd * (level^3 - level))
 ///                          (y - m(v)): a reversible response whose steepness goes with the remanence, its
 ///                          course smooth in the input; even and odd are 0 when left out
@@ -24,7 +25,10 @@ static const effect_parameter_t gain_parameter[] = {{"level_gain", "1", .least =
 
 static const effect_parameter_t moving_parameter[] = {{"moving", "1", .least = -1.0, .most = 1.0}};
 
-static const effect_parameter_t field_parameter[] = {{"field", "1", .least = -1.0, .most = 1.0}};
+static const effect_parameter_t field_parameters[] = {
+    {"field", "1", .least = -1.0, .most = 1.0},
+    {"share", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true},
+};
 
 enum { STIFFNESS, EVEN, ODD };
 
@@ -51,8 +55,8 @@ static void moving_limits(const effect_run_t* run, size_t parameter, effect_limi
 static void field_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     (void)run;
-    (void)parameter;
-    *result = limits_linear(-0.3, 0.3, 0.0, 0.05, -0.05, 0.15);
+    *result = parameter == 0 ? limits_linear(-0.3, 0.3, 0.0, 0.05, -0.05, 0.15)
+                             : limits_linear(0.0, 1.0, 0.0, 0.3, 0.3, 0.3);
 }
 
 static void stiffness_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -92,6 +96,7 @@ static void configure_field(const effect_run_t* run, const double* parameter, co
     (void)run;
     (void)column;
     hysteresis->remanence_field += parameter[0];
+    hysteresis->shift_share = parameter[1];
 }
 
 static void configure_stiffness(const effect_run_t* run, const double* parameter, const double* column,
@@ -144,8 +149,8 @@ const effect_t effect_noncongruency_remanence_field = {
     .mechanism = "remanence_field",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
-    .num_parameters = COUNT_OF(field_parameter),
-    .parameter = field_parameter,
+    .num_parameters = COUNT_OF(field_parameters),
+    .parameter = field_parameters,
     .limits = field_limits,
     .configure = configure_field,
 };

@@ -3,11 +3,14 @@
 ///     play_lag:  tau dw_j/dt = (where Eq. (6) puts the play, given w_j) - w_j: on a ramp every play trails
 ///     by
 ///                tau_j dw/dt, at rest inside its strip it stays; tau_j = tau (1 + spread r_j / r_N): walls
-///                that take more to move may be slower; hold as for an input_lag
+///                that take more to move may be slower; hold as for an input_lag; the plays trail already as
+///                the record begins, where the input has come through the range to its first sample at
+///                `approach`
 ///     widening:  r_j + coefficient |dv/dt| for every radius
 ///     diffusion: the plays see the field inside, which diffuses across a conductor (field.h)
 ///     excess:    the plays see the field less what moving walls take, coefficient * sqrt(rate) (field.h)
-/// tau >= 0 [s]; spread > -1 and hold 0 ... 1 [1], 0 when left out; coefficient >= 0 [envelope units per
+/// tau >= 0 [s]; spread > -1 and hold 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure], 0 when left out;
+/// coefficient >= 0 [envelope units per
 /// input/s], fitted up to where the mean rate doubles the largest radius; excess >= 0 [input units per root
 /// of input/s], fitted up to half the range behind at the mean rate. share 0 ... 1: how much of the
 /// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. They count a
@@ -82,7 +85,8 @@ static void configure_lag(const effect_run_t* run, const double* parameter, cons
     hysteresis->play_lag += parameter[0];
     if (parameter[0] > 0.0) {
         hysteresis->lag_spread = parameter[1];
-        hysteresis->lag_hold = parameter[2];
+        hysteresis->approach = parameter[2];
+        hysteresis->lag_hold = parameter[3];
     }
 }
 
@@ -105,14 +109,23 @@ static void configure_widening(const effect_run_t* run, const double* parameter,
 static const effect_parameter_t play_lag_parameters[] = {
     {"tau", "s", AT_LEAST_0},
     {"spread", "1", .least = -0.99, .most = 10.0, .optional = true},
+    {"approach", "input/s", AT_LEAST_0, .optional = true},
     {"hold", "1", .least = 0.0, .most = 1.0, .optional = true},
 };
 
 static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
+    const double fastest = run->input_rate > 0.0 ? 10.0 * run->input_rate : 1.0;
     *result = parameter == 0   ? limits_time_constant(run)
               : parameter == 1 ? limits_linear(-0.9, 3.0, 0.0, 0.3, 1.0, 0.1)
+              : parameter == 2 ? limits_linear(0.0, fastest, 0.0, 0.0, 0.3 * fastest, 0.03 * fastest)
                                : hold_limits();
+}
+
+/// Another record's past is taken to be at leisure.
+static void play_lag_for_another_record(double* parameter)
+{
+    parameter[2] = 0.0;
 }
 
 const effect_t effect_rate_dependence_play_lag = {
@@ -124,6 +137,7 @@ const effect_t effect_rate_dependence_play_lag = {
     .parameter = play_lag_parameters,
     .limits = play_lag_limits,
     .has_threshold = true,
+    .for_another_record = play_lag_for_another_record,
     .configure = configure_lag,
     .covers = 0.25, // as an input_lag's: spread and hold make it like another lag
 };

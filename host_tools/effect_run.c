@@ -232,16 +232,21 @@ static void sight_free(sight_t* sight)
     free(sight->field);
 }
 
-/// Adds what the nonhysteretic part gives for the drive and its share of the field beyond what it would give
-/// for what the hysteretic part sees.
-static void add_direct(const effect_run_t* run, const model_t* model, const stand_in_t* body, double share,
-                       const double* drive, const sight_t* sight, double* output)
+/// Adds what the nonhysteretic part gives for the drive and its shares of field and shift beyond what it
+/// would give for what the hysteretic part sees.
+static void add_direct(const effect_run_t* run, const model_t* model, const stand_in_t* body,
+                       const hysteresis_t* hysteresis, const double* drive, const sight_t* sight,
+                       double* output)
 {
+    const double share = hysteresis->field.share;
     for (size_t i = 0; i < run->num_samples; ++i) {
         const double seen = sight->seen[i];
         if (drive[i] < seen || drive[i] > seen) {
-            const double direct = nonhysteretic_at(run, model, body, drive[i]);
-            const double shared = share > 0.0 ? nonhysteretic_at(run, model, body, sight->field[i]) : direct;
+            const double shift =
+                hysteresis->shift != NULL ? hysteresis->shift_share * hysteresis->shift[i] : 0.0;
+            const double direct = nonhysteretic_at(run, model, body, drive[i] + shift);
+            const double shared =
+                share > 0.0 ? nonhysteretic_at(run, model, body, sight->field[i] + shift) : direct;
             output[i] += direct + share * (shared - direct) - nonhysteretic_at(run, model, body, seen);
         }
     }
@@ -274,7 +279,7 @@ static void run_fast(const effect_run_t* run, const model_t* model, const hyster
     for (size_t i = 0; i < run->num_samples; ++i) {
         output[i] = nonhysteretic_at(run, model, NULL, sight.seen[i]);
     }
-    add_direct(run, model, NULL, hysteresis->field.share, drive, &sight, output);
+    add_direct(run, model, NULL, hysteresis, drive, &sight, output);
     hysteresis_from_sums(model, hysteresis, drive, sum, run->num_samples, output);
     sight_free(&sight);
     free(sum);
@@ -297,7 +302,7 @@ static void run_body_alone(const effect_run_t* run, const model_t* model, start_
 {
     sight_t sight = sight_of(run, model, hysteresis, drive);
     stand_in_run(run->body, model, start, shift, sight.seen, run->num_samples, output);
-    add_direct(run, model, run->body, hysteresis->field.share, drive, &sight, output);
+    add_direct(run, model, run->body, hysteresis, drive, &sight, output);
     sight_free(&sight);
 }
 
@@ -314,6 +319,7 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     neutral.field = hysteresis->field;
     neutral.coercive = hysteresis->coercive;
     neutral.shift = hysteresis->shift;
+    neutral.shift_share = hysteresis->shift_share;
     double* plain = xmalloc(run->num_samples * sizeof(double));
     double* body = xmalloc(run->num_samples * sizeof(double));
     run_plays(run, model, start, &neutral, drive, plain);

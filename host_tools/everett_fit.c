@@ -208,8 +208,7 @@ everett_t everett_fit(const model_t* model, const double* input, const double* o
     everett_t everett = everett_none(model);
     (void)solve(all, penalty, most_probable_strength(all, penalty), everett.value);
     // Coloured noise is not to be followed.
-    add_to(independent, all,
-           1 / correlation_left(&everett, input, model_output, difference, num_samples));
+    add_to(independent, all, 1 / correlation_left(&everett, input, model_output, difference, num_samples));
     const double strength = most_probable_strength(independent, penalty);
     (void)solve(independent, penalty, strength, everett.value);
     const double error = held_out_error(fold, all, penalty, strength);

@@ -199,16 +199,19 @@ static void move_plays(const hysteresis_state_t* state, double v, double step, d
 /// A command on its way to the plays.
 typedef struct {
     double command;
-    double seen;          ///< before the mean fields
-    double nonhysteretic; ///< the nonhysteretic part there
+    double field; ///< inside
+    double seen;  ///< before the mean fields
 } approach_t;
 
-static double nonhysteretic_at(const hysteresis_state_t* state, double v, double field)
+/// The nonhysteretic part where the plays see `seen`.
+static double nonhysteretic_at(const hysteresis_state_t* state, const approach_t* to, double seen)
 {
     const curve_t* nonhysteretic = &state->model->nonhysteretic;
-    const double direct = curve_value(nonhysteretic, v);
-    return differs(v - field)
-               ? direct + state->hysteresis->field.share * (curve_value(nonhysteretic, field) - direct)
+    const double shift = state->hysteresis->shift_share * (seen - to->seen);
+    const double direct = curve_value(nonhysteretic, to->command + shift);
+    return differs(to->command - to->field)
+               ? direct +
+                     state->hysteresis->field.share * (curve_value(nonhysteretic, to->field + shift) - direct)
                : direct;
 }
 
@@ -224,8 +227,8 @@ double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* 
     return half_range * hysteresis->remanence_field * loop_middle_remanence(hysteresis->middle, v, y);
 }
 
-/// What the plays see when their sum is `sum`.
-static double shift(const hysteresis_state_t* state, const approach_t* to, double sum)
+/// What the plays see when they have seen that much and their sum is `sum`.
+static double shift(const hysteresis_state_t* state, const approach_t* to, double has_seen, double sum)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
     double seen = to->seen;
@@ -235,7 +238,8 @@ static double shift(const hysteresis_state_t* state, const approach_t* to, doubl
         seen += hysteresis->moving * half_range * part;
     }
     if (differs(hysteresis->remanence_field)) {
-        seen += hysteresis_remanent_shift(hysteresis, state->model, to->command, to->nonhysteretic + sum);
+        seen += hysteresis_remanent_shift(hysteresis, state->model, to->command,
+                                          nonhysteretic_at(state, to, has_seen) + sum);
     }
     return seen;
 }
@@ -252,12 +256,12 @@ static double shifted(const hysteresis_state_t* state, const approach_t* to, dou
     }
     const double tolerance = 1e-13 * (model->input_max - model->input_min);
     double* scratch = state->memory + model->num_plays;
-    double seen = shift(state, to, state->sum);
+    double seen = shift(state, to, to->seen, state->sum);
     double before = seen;
     double image_before = seen;
     for (int i = 0; i < ITERATIONS; ++i) {
         move_plays(state, seen, step, scratch);
-        const double image = shift(state, to, weighted_sum(model, scratch));
+        const double image = shift(state, to, seen, weighted_sum(model, scratch));
         if (fabs(image - seen) <= tolerance) {
             return image;
         }
@@ -297,10 +301,10 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     const hysteresis_t* hysteresis = state->hysteresis;
     double* scratch = state->memory + state->model->num_plays;
     outlook_t next = {.field = field_next(&hysteresis->field, &state->field, v, step)};
-    next.nonhysteretic = nonhysteretic_at(state, v, next.field.seen);
-    const approach_t to = {v, hysteresis_seen(hysteresis, state->model, state->sample + 1, next.field.seen),
-                           next.nonhysteretic};
+    const approach_t to = {v, next.field.seen,
+                           hysteresis_seen(hysteresis, state->model, state->sample + 1, next.field.seen)};
     next.seen = shifted(state, &to, step);
+    next.nonhysteretic = nonhysteretic_at(state, &to, next.seen);
     move_plays(state, next.seen, step, scratch);
     next.travel = state->travel + fabs(v - state->command);
     next.sum = weighted_sum(state->model, scratch);
@@ -374,6 +378,45 @@ static reference_t past_of(const model_t* model, start_t start, const hysteresis
     return reference;
 }
 
+/// Plays with a lag on an even ramp from where they are, at the hysteresis' approach.
+static void ramp_to(hysteresis_state_t* state, double to)
+{
+    enum { STEPS = 32 };
+    const double from = state->input;
+    const double step = fabs(to - from) / state->hysteresis->approach / STEPS;
+    for (int k = 1; k <= STEPS && step > 0.0; ++k) {
+        move_plays(state, from + (to - from) * k / STEPS, step, state->memory + state->model->num_plays);
+        memcpy(state->memory, state->memory + state->model->num_plays,
+               state->model->num_plays * sizeof(double));
+        state->input = from + (to - from) * k / STEPS;
+    }
+    state->input = to;
+}
+
+/// The plays as a lag leaves them behind: what came before the last turn was at leisure, for a saturation
+/// that was the other one.
+static void approach_first(hysteresis_state_t* state, start_t start)
+{
+    const model_t* model = state->model;
+    const hysteresis_t* hysteresis = state->hysteresis;
+    const double first = state->input;
+    const bool from_top = start == START_NEGATIVE_SATURATION;
+    const bool is_saturated = hysteresis->num_turns == 0 && (from_top || start == START_POSITIVE_SATURATION);
+    const start_t before = !is_saturated ? start
+                           : from_top    ? START_POSITIVE_SATURATION
+                                         : START_NEGATIVE_SATURATION;
+    reference_t reference = hysteresis->num_turns > 0 ? past_of(model, start, hysteresis,
+                                                                hysteresis->turn[hysteresis->num_turns - 1])
+                                                      : reference_start(model, before);
+    memcpy(state->memory, reference.memory, model->num_plays * sizeof(double));
+    state->input = reference.input;
+    reference_free(&reference);
+    if (is_saturated) {
+        ramp_to(state, from_top ? model->input_min : model->input_max);
+    }
+    ramp_to(state, first);
+}
+
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
                                     double first_input)
 {
@@ -387,6 +430,9 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
                                 .memory = xcalloc(2 * model->num_plays, sizeof(double))};
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
+    if (differs(hysteresis->play_lag) && hysteresis->approach > 0.0) {
+        approach_first(&state, start);
+    }
     if (hysteresis->start_fraction != NULL) {
         place_plays(&state);
     }
@@ -397,6 +443,7 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
         }
     }
     state.sum = weighted_sum(model, state.memory);
+    state.nonhysteretic = curve_value(&model->nonhysteretic, first_input);
     set_sum_range(&state);
     return state;
 }
@@ -410,7 +457,7 @@ void hysteresis_state_free(hysteresis_state_t* state)
 double hysteresis_output(const hysteresis_state_t* state)
 {
     const outlook_t present = {
-        .nonhysteretic = nonhysteretic_at(state, state->command, state->field.seen),
+        .nonhysteretic = state->nonhysteretic,
         .travel = state->travel,
         .sum = state->sum,
         .correction = state->correction,
@@ -428,6 +475,7 @@ double hysteresis_step(hysteresis_state_t* state, double input, double step)
     state->field = next.field;
     state->travel = next.travel;
     state->sum = next.sum;
+    state->nonhysteretic = next.nonhysteretic;
     state->correction = next.correction;
     return output_at(state, input, &next);
 }

@@ -20,12 +20,15 @@ typedef struct {
     double lag_spread; ///< play_lag is 1 + lag_spread as long at the largest radius, in between by the radius
     double lag_hold;   ///< how far the strip is on its way as a sample begins: 0, it goes straight; 1, it is
                        ///< there at once
-    double widening;   ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
+    double approach; ///< [input/s] how fast the input came to its first sample, as plays with a lag tell; 0:
+                     ///< at leisure
+    double widening; ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
     double
         level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
     double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
     double remanence_field; ///< the plays see v + remanence_field * half range * the output's remanence
+    double shift_share;     ///< 0 ... 1: how much of that, or of `shift`, the nonhysteretic part sees too
     stiffness_t stiffness;
     const loop_middle_t* middle; ///< for those above; may be NULL where they are 0
     field_t field;               ///< how what the plays see follows the input
@@ -86,6 +89,7 @@ typedef struct {
     double travel;
     double command;              ///< the input before field and mean field
     double sum;                  ///< of weight * state
+    double nonhysteretic;        ///< the nonhysteretic part
     double sum_middle, sum_half; ///< of what it spans between the saturations
     double correction;           ///< what increments scaled by level_gain and wear have added so far
 } hysteresis_state_t;

@@ -162,6 +162,31 @@ static double after_turns(const plant_t* plant, double r, double w, double v)
     return w;
 }
 
+static void move_play(const plant_t* plant, double r, double* w, double low, double high)
+{
+    if (by(plant, "rate_dependence", "play_lag")) {
+        const double tau = plant->p[0] * (1 + plant->p[1] * r / plant->model->radius[PLAYS - 1]);
+        *w += plant->dt / tau * (clamp(*w, low, high) - *w);
+    } else {
+        *w = clamp(*w, low, high);
+    }
+}
+
+/// A play that lags, down the range from positive saturation and up to v at p[2].
+static double after_approach(const plant_t* plant, double r, double v)
+{
+    const model_t* model = plant->model;
+    const double reach = plant->p[2] * plant->dt;
+    double w = tanh(model->ascending.slope * model->input_max + model->ascending.shift) - r;
+    double u = model->input_max;
+    for (double to = model->input_min; u > to || u<v; to = u> model->input_min ? to : v) {
+        u += clamp(to - u, -reach, reach);
+        move_play(plant, r, &w, tanh(model->ascending.slope * u + model->ascending.shift) - r,
+                  tanh(model->descending.slope * u + model->descending.shift) + r);
+    }
+    return w;
+}
+
 static void start_plays(plant_t* plant, double v)
 {
     const model_t* model = plant->model;
@@ -174,6 +199,8 @@ static void start_plays(plant_t* plant, double v)
         plant->w[j] = fmax(bottom + r, low);
         if (by(plant, "initial_state", "turning_points")) {
             plant->w[j] = after_turns(plant, r, bottom + r, v);
+        } else if (by(plant, "rate_dependence", "play_lag")) {
+            plant->w[j] = after_approach(plant, r, v);
         } else if (is(plant, "initial_state")) {
             const double place =
                 (r - model->radius[0]) / (model->radius[PLAYS - 1] - model->radius[0]) * (STATES - 1);
@@ -187,16 +214,6 @@ static void start_plays(plant_t* plant, double v)
     }
     plant->scaled = plant->sum;
     plant->command = v;
-}
-
-static void move_play(const plant_t* plant, double r, double* w, double low, double high)
-{
-    if (by(plant, "rate_dependence", "play_lag")) {
-        const double tau = plant->p[0] * (1 + plant->p[1] * r / plant->model->radius[PLAYS - 1]);
-        *w += plant->dt / tau * (clamp(*w, low, high) - *w);
-    } else {
-        *w = clamp(*w, low, high);
-    }
 }
 
 /// The plays' weighted sum as the effects inside the hysteresis leave it.
@@ -482,18 +499,21 @@ static double sensor(plant_t* plant, double y, double time)
 /// Both parts of the material.
 static double material(plant_t* plant, double v, double temperature)
 {
+    const double half_range = (plant->model->input_max - plant->model->input_min) / 2;
+    const double before = plant->remanence;
     const double sum = plays(plant, v, temperature);
     const bool has_share =
         by(plant, "rate_dependence", "diffusion") || by(plant, "rate_dependence", "excess");
     const double share = has_share ? plant->p[1] : 0;
-    const double output =
-        sum + (1 - share) * nonhysteretic(plant, v) + share * nonhysteretic(plant, plant->seen);
+    double output = sum + (1 - share) * nonhysteretic(plant, v) + share * nonhysteretic(plant, plant->seen);
+    if (by(plant, "noncongruency", "remanence_field")) {
+        output = sum + nonhysteretic(plant, v + plant->p[1] * plant->p[0] * half_range * before);
+    }
     double middle;
     double half;
     output_range(plant, &middle, &half);
     plant->remanence = above_middle(plant, v, output) / half;
     if (by(plant, "noncongruency", "remanence_stiffness")) {
-        const double half_range = (plant->model->input_max - plant->model->input_min) / 2;
         const double x = v / half_range;
         const double steeper = plant->p[0] * x + plant->p[1] * (x * x - 1) + plant->p[2] * x * (x * x - 1);
         return output + steeper * plant->remanence * half;
