@@ -7,7 +7,7 @@
 
 /// Grain in parts of floor and gap.
 static const double floor_grain = 0.14;
-static const double gap_grain = 1e-3;
+static const double gap_grain = 5e-4;
 /// Where an explanation leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 1.5;
 /// Weight of a hypothesis is the ratio of what is left to this power, times this for each effect: there are
