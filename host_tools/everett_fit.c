@@ -63,7 +63,7 @@ static void set_equations(equations_t* fold, const model_t* model, const double*
     free(rows);
 }
 
-/// Adds weight * (third difference from (alpha, beta) on, towards alpha + da, beta + db)^2.
+/// Adds (third difference from (alpha, beta) on, towards alpha + da, beta + db)^2.
 static void stiffen(double* gram, size_t alpha, size_t beta, size_t da, size_t db)
 {
     static const double by[] = {1, -3, 3, -1};

@@ -394,11 +394,14 @@ static void ramp_to(hysteresis_state_t* state, double to)
 }
 
 /// The plays as a lag leaves them behind: what came before the last turn was at leisure, for a saturation
-/// that was the other one.
+/// that was the other one. No column says how wide they were.
 static void approach_first(hysteresis_state_t* state, start_t start)
 {
     const model_t* model = state->model;
     const hysteresis_t* hysteresis = state->hysteresis;
+    hysteresis_t before_record = *hysteresis;
+    before_record.width = NULL;
+    state->hysteresis = &before_record;
     const double first = state->input;
     const bool from_top = start == START_NEGATIVE_SATURATION;
     const bool is_saturated = hysteresis->num_turns == 0 && (from_top || start == START_POSITIVE_SATURATION);
@@ -415,6 +418,7 @@ static void approach_first(hysteresis_state_t* state, start_t start)
         ramp_to(state, from_top ? model->input_min : model->input_max);
     }
     ramp_to(state, first);
+    state->hysteresis = hysteresis;
 }
 
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
@@ -430,13 +434,14 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
                                 .memory = xcalloc(2 * model->num_plays, sizeof(double))};
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
-    if (differs(hysteresis->play_lag) && hysteresis->approach > 0.0) {
+    const bool trails = differs(hysteresis->play_lag) && hysteresis->approach > 0.0;
+    if (trails) {
         approach_first(&state, start);
     }
     if (hysteresis->start_fraction != NULL) {
         place_plays(&state);
     }
-    if (hysteresis->width != NULL) {
+    if (hysteresis->width != NULL && !trails) {
         const strip_t strip = strip_at(model, seen, hysteresis->width[0]);
         for (size_t j = 0; j < model->num_plays; ++j) {
             state.memory[j] = moved(state.memory[j], model->radius[j], &strip, 0, false);

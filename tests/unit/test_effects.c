@@ -361,6 +361,19 @@ static void held_viscous_plays_are_sampled_filters(void)
     reference_free(&start);
 }
 
+/// A width that is 0 leaves plays that trail where they are, and nothing is read beyond its one sample.
+static void a_past_at_speed_needs_no_column(void)
+{
+    hysteresis_t hysteresis = hysteresis_neutral();
+    hysteresis.play_lag = 0.1;
+    hysteresis.approach = 5.0;
+    hysteresis_run(&model, START_NEGATIVE_SATURATION, &hysteresis, record.time, record.input, 1, plain);
+    hysteresis.width = xcalloc(1, sizeof(double));
+    hysteresis_run(&model, START_NEGATIVE_SATURATION, &hysteresis, record.time, record.input, 1, output);
+    TEST_ASSERT_EQUAL_DOUBLE(plain[0], output[0]);
+    hysteresis_free(&hysteresis);
+}
+
 /// Without a reference the column counts from its first value, with one from there.
 static void the_reference_shifts_the_column(void)
 {
@@ -452,6 +465,7 @@ int main(void)
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);
     RUN_TEST(held_viscous_plays_are_sampled_filters);
+    RUN_TEST(a_past_at_speed_needs_no_column);
     RUN_TEST(the_reference_shifts_the_column);
     RUN_TEST(order_is_the_catalogue_s);
     RUN_TEST(inverse_gives_the_wanted_output);
