@@ -216,7 +216,8 @@ void shrink_find(const gap_t* gap, const double* plain, bool held_out, const dou
     const size_t count = cause_handed_out(cause, uses);
     bool is_fitted = count == cause->hypothesis->num_uses;
     for (size_t i = 0; i < count; i++) {
-        is_fitted = is_fitted && uses[i].effect->for_another_record == NULL;
+        is_fitted = is_fitted && memcmp(uses[i].parameter, cause->hypothesis->use[i].parameter,
+                                        sizeof uses[i].parameter) == 0;
     }
     if (held_out && is_fitted) {
         memcpy(left, cause->hypothesis->block_error, sizeof left);

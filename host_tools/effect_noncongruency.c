@@ -20,6 +20,7 @@
 /// (reversible part that depends on the irreversible one).
 #include "effect_catalogue.h"
 #include "effect_limits.h"
+#include <math.h>
 
 static const effect_parameter_t gain_parameter[] = {{"level_gain", "1", .least = -0.99, .most = 0.99}};
 
@@ -96,7 +97,9 @@ static void configure_field(const effect_run_t* run, const double* parameter, co
     (void)run;
     (void)column;
     hysteresis->remanence_field += parameter[0];
-    hysteresis->shift_share = parameter[1];
+    if (fabs(parameter[0]) > 0.0) {
+        hysteresis->shift_share = parameter[1];
+    }
 }
 
 static void configure_stiffness(const effect_run_t* run, const double* parameter, const double* column,

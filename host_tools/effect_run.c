@@ -339,7 +339,8 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     free(body);
 }
 
-/// It has the plays' past and sees what they see.
+/// It has the plays' past and sees what they see, all of it: what its share takes away of the nonhysteretic
+/// part its splines give back there.
 static void add_everett(const effect_run_t* run, const model_t* model, start_t start,
                         const hysteresis_t* hysteresis, const double* drive, double* output)
 {

@@ -1,5 +1,6 @@
 #include "everett.h"
 
+#include "output_range.h"
 #include <math.h>
 #include <string.h>
 
@@ -26,31 +27,30 @@ size_t everett_node(size_t alpha, size_t beta)
     return alpha * (alpha - 1) / 2 + beta;
 }
 
-static double model_span(const model_t* model)
+static everett_range_t range_of(const model_t* model)
 {
-    double low = curve_value(&model->nonhysteretic, model->input_min);
-    double high = curve_value(&model->nonhysteretic, model->input_max);
-    for (size_t j = 0; j < model->num_plays; j++) {
-        low += model->weight[j] * (curve_value(&model->descending, model->input_min) + model->radius[j]);
-        high += model->weight[j] * (curve_value(&model->ascending, model->input_max) - model->radius[j]);
-    }
-    return fabs(high - low) > 0 ? fabs(high - low) : 1;
+    const double low = model_output_min(model);
+    const double span = model_output_max(model) - low;
+    return (everett_range_t){.input_min = model->input_min,
+                             .input_max = model->input_max,
+                             .output_middle = low + 0.5 * span,
+                             .output_span = span > 0 ? span : 1};
+}
+
+/// The model's output as the share counts it.
+static double counted(const everett_range_t* range, double model_output)
+{
+    return (model_output - range->output_middle) / range->output_span;
 }
 
 everett_t everett_none(const model_t* model)
 {
-    return (everett_t){
-        .input_min = model->input_min, .input_max = model->input_max, .model_span = model_span(model)};
-}
-
-static everett_past_t start_over(double input_min, double input_max, double span)
-{
-    return (everett_past_t){.input_min = input_min, .input_max = input_max, .model_span = span, .count = 1};
+    return (everett_t){.range = range_of(model)};
 }
 
 everett_past_t everett_start(const model_t* model)
 {
-    return start_over(model->input_min, model->input_max, model_span(model));
+    return (everett_past_t){.range = range_of(model), .count = 1};
 }
 
 /// Moves to u: smaller loops that it closes are wiped out.
@@ -79,7 +79,8 @@ static double end_of(const everett_past_t* past, size_t k)
 
 static void take(everett_past_t* past, double input)
 {
-    const double part = (input - past->input_min) / (past->input_max - past->input_min);
+    const everett_range_t* range = &past->range;
+    const double part = (input - range->input_min) / (range->input_max - range->input_min);
     move_to(past, fmin(fmax(part, 0), 1));
 }
 
@@ -107,7 +108,7 @@ void everett_step(everett_past_t* past, double input, double model_output, doubl
     take(past, input);
     memset(row, 0, EVERETT_FREE * sizeof *row);
     row[EVERETT_CONSTANT] = 1;
-    row[EVERETT_SHARE] = model_output / past->model_span;
+    row[EVERETT_SHARE] = counted(&past->range, model_output);
     for (size_t k = 0; k < past->count; k++) {
         add_part(past->extreme[k], end_of(past, k), row);
     }
@@ -159,8 +160,8 @@ static void begin_part(run_t* run, const everett_past_t* past, size_t k)
 void everett_add(const everett_t* everett, const double* turn, size_t num_turns, const double* input,
                  const double* model_output, size_t num_samples, double* output)
 {
-    everett_past_t past = start_over(everett->input_min, everett->input_max, everett->model_span);
-    const double share = everett->value[EVERETT_SHARE] / everett->model_span;
+    everett_past_t past = {.range = everett->range, .count = 1};
+    const double share = everett->value[EVERETT_SHARE];
     run_t run;
     run_start(everett, &run);
     for (size_t t = 0; t < num_turns + num_samples; t++) {
@@ -173,7 +174,7 @@ void everett_add(const everett_t* everett, const double* turn, size_t num_turns,
         if (t >= num_turns) {
             const size_t last = past.count - 1;
             output[t - num_turns] += run.before[last] + part_to(run.branch[last], past.present) +
-                                     share * model_output[t - num_turns];
+                                     share * counted(&everett->range, model_output[t - num_turns]);
         }
     }
 }

@@ -13,15 +13,20 @@ enum {
     EVERETT_BASIS = EVERETT_CELLS + 3,                       ///< cubic B-splines over them
     EVERETT_NODES = EVERETT_BASIS * (EVERETT_BASIS - 1) / 2, ///< products of two; E(beta, alpha) = -E
     EVERETT_CONSTANT = EVERETT_NODES,
-    EVERETT_SHARE,             ///< of the model's output as a part of what that spans
+    EVERETT_SHARE,             ///< of the model's output about its middle, as a part of what that spans
     EVERETT_FREE,              ///< coefficients
     EVERETT_MOST_EXTREMES = 64 ///< that are remembered
 };
 
-/// The reversals that the memory holds, as parts of the range: a minimum, a maximum, a minimum ...
+/// The model's ranges.
 typedef struct {
     double input_min, input_max;
-    double model_span;
+    double output_middle, output_span;
+} everett_range_t;
+
+/// The reversals that the memory holds, as parts of the range: a minimum, a maximum, a minimum ...
+typedef struct {
+    everett_range_t range;
     double extreme[EVERETT_MOST_EXTREMES];
     size_t count;
     double present;
@@ -35,8 +40,7 @@ void everett_step(everett_past_t* past, double input, double model_output, doubl
 
 /// The difference itself.
 typedef struct {
-    double input_min, input_max;
-    double model_span;
+    everett_range_t range;
     double value[EVERETT_FREE]; ///< coefficients [output]
 } everett_t;
 

@@ -106,17 +106,21 @@ static void regularise(double* gram, const double* penalty, double strength, dou
     }
 }
 
-/// The coefficients; the logarithm of the regularised matrix's determinant.
+/// The coefficients; the logarithm of the regularised matrix's determinant. Where that is not positive
+/// definite in this arithmetic, all 0 and infinity.
 static double solve(const equations_t* e, const double* penalty, double strength, double* value)
 {
     double* gram = xmalloc(sizeof e->gram);
     memcpy(gram, e->gram, sizeof e->gram);
     memcpy(value, e->right, EVERETT_FREE * sizeof *value);
     regularise(gram, penalty, strength, e->count);
-    // Positive definite: every coefficient is regularised.
-    (void)LAPACKE_dposv(LAPACK_COL_MAJOR, 'U', EVERETT_FREE, 1, gram, EVERETT_FREE, value, EVERETT_FREE);
-    double determinant = 0;
-    for (size_t k = 0; k < EVERETT_FREE; k++) {
+    const bool is_solved =
+        LAPACKE_dposv(LAPACK_COL_MAJOR, 'U', EVERETT_FREE, 1, gram, EVERETT_FREE, value, EVERETT_FREE) == 0;
+    double determinant = is_solved ? 0 : HUGE_VAL;
+    for (size_t k = 0; k < EVERETT_FREE && !is_solved; k++) {
+        value[k] = 0;
+    }
+    for (size_t k = 0; k < EVERETT_FREE && is_solved; k++) {
         determinant += 2 * log(gram[k * EVERETT_FREE + k]);
     }
     free(gram);
@@ -200,6 +204,10 @@ everett_t everett_fit(const model_t* model, const double* input, const double* o
     for (size_t t = 0; t < num_samples; t++) {
         difference[t] = output[t] - model_output[t];
     }
+    const double mean = series_mean(difference, num_samples);
+    for (size_t t = 0; t < num_samples; t++) {
+        difference[t] -= mean;
+    }
     set_penalty(penalty);
     set_equations(fold, model, input, model_output, difference, num_samples);
     for (size_t k = 0; k < FOLDS; k++) {
@@ -217,6 +225,7 @@ everett_t everett_fit(const model_t* model, const double* input, const double* o
     for (size_t k = 0; k < EVERETT_FREE; k++) {
         precision[k * EVERETT_FREE + k] += error / (largest * largest);
     }
+    everett.value[EVERETT_CONSTANT] += mean;
     free(model_output);
     free(penalty);
     free(fold);

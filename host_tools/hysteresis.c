@@ -394,7 +394,7 @@ static void ramp_to(hysteresis_state_t* state, double to)
 }
 
 /// The plays as a lag leaves them behind: what came before the last turn was at leisure, for a saturation
-/// that was the other one. No column says how wide they were.
+/// that was the other one. No column says how wide they were, and they may lie outside their strips.
 static void approach_first(hysteresis_state_t* state, start_t start)
 {
     const model_t* model = state->model;
@@ -403,7 +403,8 @@ static void approach_first(hysteresis_state_t* state, start_t start)
     before_record.width = NULL;
     state->hysteresis = &before_record;
     const double first = state->input;
-    const bool from_top = start == START_NEGATIVE_SATURATION;
+    const bool from_top =
+        start == START_NEGATIVE_SATURATION || (start == START_MODEL && model->initial == NULL);
     const bool is_saturated = hysteresis->num_turns == 0 && (from_top || start == START_POSITIVE_SATURATION);
     const start_t before = !is_saturated ? start
                            : from_top    ? START_POSITIVE_SATURATION

@@ -28,7 +28,8 @@ typedef struct {
     double level_product; ///< the plays' sum, about its middle, scales by 1 + level_product * level
     double moving; ///< the plays see v + moving * half range * (their sum about its middle) / its half range
     double remanence_field; ///< the plays see v + remanence_field * half range * the output's remanence
-    double shift_share;     ///< 0 ... 1: how much of that, or of `shift`, the nonhysteretic part sees too
+    double
+        shift_share; ///< 0 ... 1: how much of the mean fields, or of `shift`, the nonhysteretic part sees too
     stiffness_t stiffness;
     const loop_middle_t* middle; ///< for those above; may be NULL where they are 0
     field_t field;               ///< how what the plays see follows the input

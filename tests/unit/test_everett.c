@@ -94,10 +94,11 @@ static void test_a_play_is_predicted(void)
     TEST_ASSERT_TRUE(held_out(one_play) < 0.5 * sqrt(2.0 / 3) / EVERETT_CELLS);
 }
 
-/// A stepped model, and a plant with half of its steps: they are in the share exactly.
-static void test_a_model_s_own_steps_are_taken_away(void)
+/// A stepped model, and a plant with half of its steps: they are in the share exactly, wherever the output's
+/// zero is.
+static void check_steps_are_taken_away(double offset)
 {
-    model.nonhysteretic = curve_linear(0.3, 0);
+    model.nonhysteretic = curve_linear(0.3, offset);
     model_set_num_plays(&model, 1);
     model.radius[0] = 1.3;
     model.weight[0] = 2;
@@ -108,10 +109,17 @@ static void test_a_model_s_own_steps_are_taken_away(void)
     double left;
     const everett_t everett = everett_fit(&model, input, output, SAMPLES, 10, precision, &left);
     TEST_ASSERT_TRUE(left < 0.01 * rms());
-    const double share = everett.value[EVERETT_SHARE] / everett.model_span;
+    const double share = everett.value[EVERETT_SHARE] / everett.range.output_span;
     TEST_ASSERT_DOUBLE_WITHIN(0.01, -0.5, share);
     // Up and down the range: 0.3 (6 - -2) nonhysteretic, and of the play the width less both radii.
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.3 * 8 + 2 * (8 - 2 * 1.3), everett.model_span);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12 + 4 * DBL_EPSILON * offset, 0.3 * 8 + 2 * (8 - 2 * 1.3),
+                              everett.range.output_span);
+}
+
+static void test_a_model_s_own_steps_are_taken_away(void)
+{
+    check_steps_are_taken_away(0);
+    check_steps_are_taken_away(1e6);
 }
 
 /// After a loop closed, the coefficients are those of a run that never made it: wiping-out.
