@@ -116,11 +116,12 @@ static double solve(const equations_t* e, const double* penalty, double strength
     regularise(gram, penalty, strength, e->count);
     const bool is_solved =
         LAPACKE_dposv(LAPACK_COL_MAJOR, 'U', EVERETT_FREE, 1, gram, EVERETT_FREE, value, EVERETT_FREE) == 0;
-    double determinant = is_solved ? 0 : HUGE_VAL;
-    for (size_t k = 0; k < EVERETT_FREE && !is_solved; k++) {
-        value[k] = 0;
+    double determinant = 0;
+    if (!is_solved) {
+        memset(value, 0, EVERETT_FREE * sizeof *value);
+        determinant = HUGE_VAL;
     }
-    for (size_t k = 0; k < EVERETT_FREE && is_solved; k++) {
+    for (size_t k = 0; is_solved && k < EVERETT_FREE; k++) {
         determinant += 2 * log(gram[k * EVERETT_FREE + k]);
     }
     free(gram);
@@ -191,6 +192,21 @@ static double correlation_left(const everett_t* everett, const double* input, co
     return correlation;
 }
 
+/// What the record has beyond the model, about its mean, which is returned.
+static double find_difference(const model_t* model, const double* input, const double* output,
+                              size_t num_samples, double* model_output, double* difference)
+{
+    reference_run(model, START_NEGATIVE_SATURATION, input, num_samples, model_output);
+    for (size_t t = 0; t < num_samples; t++) {
+        difference[t] = output[t] - model_output[t];
+    }
+    const double mean = series_mean(difference, num_samples);
+    for (size_t t = 0; t < num_samples; t++) {
+        difference[t] -= mean;
+    }
+    return mean;
+}
+
 everett_t everett_fit(const model_t* model, const double* input, const double* output, size_t num_samples,
                       double largest, double* precision, double* left)
 {
@@ -200,14 +216,7 @@ everett_t everett_fit(const model_t* model, const double* input, const double* o
     double* penalty = xmalloc(SIZE * sizeof *penalty);
     double* model_output = xmalloc(2 * num_samples * sizeof *model_output);
     double* difference = model_output + num_samples;
-    reference_run(model, START_NEGATIVE_SATURATION, input, num_samples, model_output);
-    for (size_t t = 0; t < num_samples; t++) {
-        difference[t] = output[t] - model_output[t];
-    }
-    const double mean = series_mean(difference, num_samples);
-    for (size_t t = 0; t < num_samples; t++) {
-        difference[t] -= mean;
-    }
+    const double mean = find_difference(model, input, output, num_samples, model_output, difference);
     set_penalty(penalty);
     set_equations(fold, model, input, model_output, difference, num_samples);
     for (size_t k = 0; k < FOLDS; k++) {

@@ -201,10 +201,10 @@ typedef struct {
     double command;
     double field; ///< inside
     double seen;  ///< before the mean fields
-} approach_t;
+} arrival_t;
 
 /// The nonhysteretic part where the plays see `seen`.
-static double nonhysteretic_at(const hysteresis_state_t* state, const approach_t* to, double seen)
+static double nonhysteretic_at(const hysteresis_state_t* state, const arrival_t* to, double seen)
 {
     const curve_t* nonhysteretic = &state->model->nonhysteretic;
     const double shift = state->hysteresis->shift_share * (seen - to->seen);
@@ -228,7 +228,7 @@ double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* 
 }
 
 /// What the plays see when they have seen that much and their sum is `sum`.
-static double shift(const hysteresis_state_t* state, const approach_t* to, double has_seen, double sum)
+static double shift(const hysteresis_state_t* state, const arrival_t* to, double has_seen, double sum)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
     double seen = to->seen;
@@ -247,7 +247,7 @@ static double shift(const hysteresis_state_t* state, const approach_t* to, doubl
 /// The input within a mean field: shifted by what the plays give at that very input. A secant search of the
 /// fixed point; between the plays' kinks the sum is nearly linear, so few steps do. It is unique where
 /// the field's factor times the loop's relative steepness is below 1.
-static double shifted(const hysteresis_state_t* state, const approach_t* to, double step)
+static double shifted(const hysteresis_state_t* state, const arrival_t* to, double step)
 {
     enum { ITERATIONS = 30 };
     const model_t* model = state->model;
@@ -301,8 +301,8 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     const hysteresis_t* hysteresis = state->hysteresis;
     double* scratch = state->memory + state->model->num_plays;
     outlook_t next = {.field = field_next(&hysteresis->field, &state->field, v, step)};
-    const approach_t to = {v, next.field.seen,
-                           hysteresis_seen(hysteresis, state->model, state->sample + 1, next.field.seen)};
+    const arrival_t to = {v, next.field.seen,
+                          hysteresis_seen(hysteresis, state->model, state->sample + 1, next.field.seen)};
     next.seen = shifted(state, &to, step);
     next.nonhysteretic = nonhysteretic_at(state, &to, next.seen);
     move_plays(state, next.seen, step, scratch);
