@@ -85,7 +85,7 @@ static int by_probability(const void* a, const void* b)
 /// effect, the right one has 0.89 at most.
 static const double confident_from = 0.87;
 /// What is at least this part as likely as the verdict cannot be told from it.
-static const double in_set_from = 0.15;
+static const double in_set_from = 0.25;
 /// Nothing is named that is not this many times as likely as no effect: a false alarm sends somebody after a
 /// fault that is not there, what is passed over stands beside the verdict.
 static const double alarm_from = 6;

@@ -13,8 +13,9 @@
 /// coefficient >= 0 [envelope units per
 /// input/s], fitted up to where the mean rate doubles the largest radius; excess >= 0 [input units per root
 /// of input/s], fitted up to half the range behind at the mean rate. share 0 ... 1: how much of the
-/// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. They count a
-/// quarter of an effect more, as with a share of 1 a small one is a lag of the input. Inverse: by halving,
+/// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. hold as for that
+/// (behind a diffusion its own counts). They count a quarter of an effect more, as with a share of 1 a small
+/// one is a lag of the input. Inverse: by halving,
 /// sample by sample; widening has none. Sources: viscous plays as in G. Bertotti's dynamic Preisach model,
 /// IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S. Rakheja, C.-Y. Su, Mechatronics 19
 /// (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
@@ -30,8 +31,14 @@ static const effect_parameter_t widening_parameter[] = {{"coefficient", "envelop
         "share", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true                          \
     }
 
-static const effect_parameter_t diffusion_parameters[] = {{"tau", "s", AT_LEAST_0}, SHARE};
-static const effect_parameter_t excess_parameters[] = {{"excess", "input/sqrt(input/s)", AT_LEAST_0}, SHARE};
+#define HOLD                                                                                                 \
+    {                                                                                                        \
+        "hold", "1", .least = 0.0, .most = 1.0, .optional = true                                             \
+    }
+
+static const effect_parameter_t diffusion_parameters[] = {{"tau", "s", AT_LEAST_0}, SHARE, HOLD};
+static const effect_parameter_t excess_parameters[] = {
+    {"excess", "input/sqrt(input/s)", AT_LEAST_0}, SHARE, HOLD};
 
 static effect_limits_t share_limits(double most)
 {
@@ -42,15 +49,18 @@ static effect_limits_t share_limits(double most)
 /// other modes fit what any real lag differs by from that.
 static void diffusion_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
-    *result = parameter == 0 ? limits_time_constant(run) : share_limits(0.85);
+    *result = parameter == 0   ? limits_time_constant(run)
+              : parameter == 1 ? share_limits(0.85)
+                               : hold_limits();
 }
 
 static void excess_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     const double rate = run->travel > 0.0 ? run->travel / run->duration : 1.0;
     const double high = 0.5 * run->input_span / sqrt(rate);
-    *result = parameter == 0 ? limits_linear(0.0, high, 0.0, 0.03 * high, 0.15 * high, 0.005 * high)
-                             : share_limits(1.0);
+    *result = parameter == 0   ? limits_linear(0.0, high, 0.0, 0.03 * high, 0.15 * high, 0.005 * high)
+              : parameter == 1 ? share_limits(1.0)
+                               : hold_limits();
 }
 
 /// Two fields behind each other: the nonhysteretic part is free of the share that either binds.
@@ -65,6 +75,7 @@ static void configure_diffusion(const effect_run_t* run, const double* parameter
     (void)run;
     (void)column;
     hysteresis->field.diffusion += parameter[0];
+    hysteresis->field.hold = parameter[0] > 0.0 ? parameter[2] : hysteresis->field.hold;
     configure_share(parameter[1], &hysteresis->field);
 }
 
@@ -74,6 +85,7 @@ static void configure_excess(const effect_run_t* run, const double* parameter, c
     (void)run;
     (void)column;
     hysteresis->field.excess += parameter[0];
+    hysteresis->field.hold = hysteresis->field.diffusion > 0.0 ? hysteresis->field.hold : parameter[2];
     configure_share(parameter[1], &hysteresis->field);
 }
 
@@ -110,7 +122,7 @@ static const effect_parameter_t play_lag_parameters[] = {
     {"tau", "s", AT_LEAST_0},
     {"spread", "1", .least = -0.99, .most = 10.0, .optional = true},
     {"approach", "input/s", AT_LEAST_0, .optional = true},
-    {"hold", "1", .least = 0.0, .most = 1.0, .optional = true},
+    HOLD,
 };
 
 static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)

@@ -1,9 +1,13 @@
 /// resonance: second-order, lightly damped mode behind the hysteresis (the stage on the actuator).
 ///     m'' + 2 damping w m' + w^2 m = w^2 x,  w = 2 pi frequency, at rest at the first value before the
 ///     record; y = (1 - direct) m + direct x
-/// Exact for a course that is linear between the samples, stable for any step. frequency > 0 [Hz], damping 0
-/// ... 0.999 [1]. At high frequency it does nothing. direct 0 ... 0.5 [1], 0 when left out: what the higher
-/// modes carry, quick enough to follow at once (residual flexibility, D. J. Ewins, Modal Testing, ch. 2).
+/// Exact for the course between the samples, stable for any step. frequency > 0 [Hz], damping 0 ... 0.999
+/// [1]. At high frequency it does nothing. direct 0 ... 0.5 [1]: what the higher modes carry, quick enough to
+/// follow at once (residual flexibility, D. J. Ewins, Modal Testing, ch. 2). hold and late 0 ... 1 [1]: a
+/// mode of a few samples' period rings by what x does between them. As a sample begins x has made `hold` of
+/// the step, of the rest `late` is missing as it ends, and between it goes straight: 0, 0 all the way, 1 a
+/// converter that is there at once, 0, 1 one that stays, 0.5, 1 a staircase of means. Those three are 0 when
+/// left out.
 /// Inverse: x = y + 2 damping/w y' + y''/w^2, and with direct that through a mode of w / sqrt(direct) and
 /// damping sqrt(direct).
 #include "effect_catalogue.h"
@@ -12,7 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { FREQUENCY, DAMPING, DIRECT };
+enum { FREQUENCY, DAMPING, DIRECT, HOLD, LATE };
 
 static const double two_pi = 6.283185307179586;
 
@@ -20,6 +24,8 @@ static const effect_parameter_t parameters[] = {
     [FREQUENCY] = {"frequency", "Hz", .least = DBL_MIN, .most = DBL_MAX},
     [DAMPING] = {"damping", "1", .least = 0.0, .most = 0.999},
     [DIRECT] = {"direct", "1", .least = 0.0, .most = 0.5, .optional = true},
+    [HOLD] = {"hold", "1", .least = 0.0, .most = 1.0, .optional = true},
+    [LATE] = {"late", "1", .least = 0.0, .most = 1.0, .optional = true},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -30,6 +36,10 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
     }
     if (parameter == DIRECT) {
         *result = limits_linear(0.0, 0.3, 0.0, 0.05, 0.1, 0.02);
+        return;
+    }
+    if (parameter == HOLD || parameter == LATE) {
+        *result = hold_limits();
         return;
     }
     const double high = 5.0 / run->sample_time;
@@ -53,21 +63,22 @@ static void apply_series(const effect_run_t* run, const double* parameter, doubl
 {
     const double w = two_pi * parameter[FREQUENCY];
     const double damping = parameter[DAMPING];
-    double from = run->num_samples > 0 ? series[0] : 0.0;
-    double place = from;
+    double before = run->num_samples > 0 ? series[0] : 0.0;
+    double place = before;
     double speed = 0.0; // y'/w
     for (size_t i = 1; i < run->num_samples; ++i) {
         const double step = run->time[i] - run->time[i - 1];
-        const double to = series[i];
-        // Follows x = from + slope w t with the lag 2 damping slope; the rest rings.
-        const double slope = (to - from) / (w * step);
-        const double e = place - from + 2.0 * damping * slope;
+        const double begin = before + parameter[HOLD] * (series[i] - before);
+        const double end = series[i] + parameter[LATE] * (begin - series[i]);
+        // Follows x = begin + slope w t with the lag 2 damping slope; the rest rings.
+        const double slope = (end - begin) / (w * step);
+        const double e = place - begin + 2.0 * damping * slope;
         const double f = speed - slope;
         const rotation_t turn = rotation(w, damping, step);
-        place = to - 2.0 * damping * slope + turn.cosine * e + turn.sine * (damping * e + f);
+        place = end - 2.0 * damping * slope + turn.cosine * e + turn.sine * (damping * e + f);
         speed = slope + turn.cosine * f - turn.sine * (e + damping * f);
-        series[i] = place + parameter[DIRECT] * (to - place);
-        from = to;
+        before = series[i];
+        series[i] = place + parameter[DIRECT] * (before - place);
     }
 }
 
@@ -86,7 +97,7 @@ static void lead_series(const effect_run_t* run, const double* parameter, double
     if (parameter[DIRECT] > 0.0) {
         const double root = sqrt(parameter[DIRECT]);
         const double rest[] = {
-            [FREQUENCY] = parameter[FREQUENCY] / root, [DAMPING] = parameter[DAMPING] * root, [DIRECT] = 0.0};
+            [FREQUENCY] = parameter[FREQUENCY] / root, [DAMPING] = parameter[DAMPING] * root, [LATE] = 0.0};
         apply_series(run, rest, series);
     }
 }

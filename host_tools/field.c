@@ -18,21 +18,21 @@ field_state_t field_start(double input)
 }
 
 /// The modes' lags: set up once for an even clock.
-static void set_step(double tau, const field_state_t* from, field_state_t* to, double step)
+static void set_step(const field_t* field, const field_state_t* from, field_state_t* to, double step)
 {
     const bool is_set = lag_is_same_step(step, from->step);
     to->step = is_set ? from->step : step;
     for (size_t k = 0; k < FIELD_MODES; k++) {
         const double odd = 2 * (double)k + 1;
-        to->lag[k] = is_set ? from->lag[k] : lag_step(step, tau / (odd * odd));
+        to->lag[k] = is_set ? from->lag[k] : lag_step_held(step, field->diffusion / (odd * odd), field->hold);
     }
 }
 
-static void diffuse(double tau, const field_state_t* from, field_state_t* to, double step)
+static void diffuse(const field_t* field, const field_state_t* from, field_state_t* to, double step)
 {
     static const double pi = 3.14159265358979323846;
     to->diffused = to->input;
-    set_step(tau, from, to, step);
+    set_step(field, from, to, step);
     for (size_t k = 0; k < FIELD_MODES; k++) {
         const double odd = 2 * (double)k + 1;
         to->mode[k] = lag_next(to->lag[k], from->mode[k], from->input, to->input);
@@ -70,14 +70,15 @@ field_state_t field_next(const field_t* field, const field_state_t* state, doubl
 {
     field_state_t next = {.input = input, .diffused = input};
     if (field->diffusion > 0) {
-        diffuse(field->diffusion, state, &next, step);
+        diffuse(field, state, &next, step);
     }
     next.seen = next.diffused;
     // Below this its square is no normal number, and the gap is none.
     if (field->excess > 1e-150) {
-        const double gap = state->diffused - state->seen;
-        const double speed = (next.diffused - state->diffused) / step;
-        next.seen -= gap_after(gap, speed, field->excess, step);
+        const double move = next.diffused - state->diffused;
+        const double jump = field->diffusion > 0 ? 0 : field->hold * move;
+        const double gap = state->diffused + jump - state->seen;
+        next.seen -= gap_after(gap, (move - jump) / step, field->excess, step);
     }
     return next;
 }

@@ -3,8 +3,8 @@
 ///     diffusion: heat equation across a lamination, its mean: sum_k a_k LP_k(v), a_k = 8 / (pi (2k+1))^2,
 ///                LP_k a first-order lag of tau / (2k+1)^2
 ///     excess:    d seen/dt = ((v - seen) / excess)^2, signed: on a ramp it trails by excess * sqrt(rate)
-/// Both exact for an input that is linear between the samples, but for the modes beyond the sixth, 3 % of the
-/// weight with time constants below tau / 169, which are taken as instantaneous. Sources: G. Bertotti,
+/// Both exact for the input between the samples, but for the modes beyond the sixth, 3 % of the weight with
+/// time constants below tau / 169, which are taken as instantaneous. Sources: G. Bertotti,
 /// IEEE Trans. Magn. 24 (1988) 621 (classical and excess field).
 #ifndef HYST_HOST_FIELD_H
 #define HYST_HOST_FIELD_H
@@ -18,6 +18,8 @@ typedef struct {
     double diffusion; ///< [s] time constant of the slowest mode, 0: none
     double excess;    ///< [input units / sqrt(input units/s)], 0: none
     double share;     ///< of the nonhysteretic part that sees this field too; the rest sees the input itself
+    double hold;      ///< how far the input is on its way as a sample begins: 0, it goes straight; 1, it is
+                      ///< there at once
 } field_t;
 
 bool field_is_neutral(const field_t* field);
@@ -33,7 +35,8 @@ typedef struct {
 
 /// At rest at the input.
 field_state_t field_start(double input);
-/// The state when the input has moved evenly to `input` in `step` seconds; of the same field as the last.
+/// The state when the input has moved to `input` in `step` seconds; of the same field as the last. Behind a
+/// diffusion the excess field's input goes straight.
 field_state_t field_next(const field_t* field, const field_state_t* state, double input, double step);
 
 #endif

@@ -361,6 +361,69 @@ static void held_viscous_plays_are_sampled_filters(void)
     reference_free(&start);
 }
 
+/// The cases with a course between the samples; hold and late are the last of their parameters. A mode of six
+/// samples' period.
+static const effect_case_t held_cases[] = {
+    {"rate_dependence", "diffusion", {0.15, 0.3, 0.6}, 1.0},
+    {"rate_dependence", "excess", {0.15, 0.3, 0.6}, 1.0},
+    {"resonance", NULL, {41.7, 0.1, 0.12, 0.3, 0.4}, 6.4},
+};
+enum { NUM_HELD = sizeof held_cases / sizeof held_cases[0] };
+
+/// A course that is straight but for what it does within `sudden` of each sample: from[i] + hold of the step
+/// just after a sample, without `late` of the rest just before the next.
+static void bend_course(const double* straight, double hold, double late, double* bent)
+{
+    for (size_t i = 0; i + 1 < CASE_SAMPLES; ++i) {
+        const double step = straight[3 * i + 3] - straight[3 * i];
+        bent[3 * i + 1] = straight[3 * i] + hold * step;
+        bent[3 * i + 2] = straight[3 * i + 3] - late * (1.0 - hold) * step;
+    }
+}
+
+/// Parameters for the course between the samples do what samples there do. What moves within `sudden` of a
+/// sample's time instead of at it comes later by that part of it: `sudden` samples' motion, twice.
+static void what_is_between_samples_is_as_if_sampled(void)
+{
+    const double sudden = 1e-6;
+    record_t fine = effect_case_record((const double[]){sudden, 1.0 - sudden}, 2);
+    double* straight = xcalloc(fine.num_samples, sizeof(double));
+    double* dense = xcalloc(fine.num_samples, sizeof(double));
+    const double motion = effect_case_speed(&model, &record) * run.sample_time;
+    memcpy(straight, fine.input, fine.num_samples * sizeof(double));
+    for (size_t c = 0; c < NUM_HELD; ++c) {
+        effect_use_t use = effect_case_use(&held_cases[c]);
+        const bool is_mode = use.effect->stage == EFFECT_SENSOR;
+        const double* between = &use.parameter[use.effect->num_parameters - (is_mode ? 2 : 1)];
+        effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+        if (!is_mode) {
+            bend_course(straight, between[0], 0.0, fine.input);
+        }
+        effect_run_t fine_run = effect_run_new(&model, &fine);
+        if (is_mode) { // its course is the output, which goes as the samples tell
+            for (size_t i = 0; i < CASE_SAMPLES; ++i) {
+                straight[3 * i] = plain[i];
+            }
+            bend_course(straight, between[0], between[1], straight);
+        }
+        memset(&use.parameter[between - use.parameter], 0, (is_mode ? 2 : 1) * sizeof(double));
+        memcpy(dense, straight, fine.num_samples * sizeof(double));
+        if (is_mode) {
+            effect_use_apply(&fine_run, &use, dense);
+        } else {
+            effect_simulate(&fine_run, &model, START_NEGATIVE_SATURATION, &use, 1, dense);
+        }
+        for (size_t i = 0; i < CASE_SAMPLES; ++i) {
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(held_cases[c].gain * 2.0 * sudden * motion, dense[3 * i],
+                                              output[i], use.effect->name);
+        }
+        effect_run_free(&fine_run);
+    }
+    free(straight);
+    free(dense);
+    record_free(&fine);
+}
+
 /// A width that is 0 leaves plays that trail where they are, and nothing is read beyond its one sample.
 static void a_past_at_speed_needs_no_column(void)
 {
@@ -397,32 +460,37 @@ static void order_is_the_catalogue_s(void)
 }
 
 /// What the model itself gave can be asked for again: within what two right computations may differ by.
+static void inverse_gives_back(const effect_case_t* of, double* command, double* clamped, double* again)
+{
+    const effect_use_t use = effect_case_use(of);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    effect_invert(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output, command, clamped);
+    effect_run_t back = run;
+    back.input = command;
+    effect_simulate(&back, &model, START_NEGATIVE_SATURATION, &use, 1, again);
+    double largest = 0.0;
+    size_t num_clamped = 0;
+    for (size_t i = 0; i < record.num_samples; ++i) {
+        num_clamped += clamped[i] > 0.0 ? 1 : 0;
+        largest = fmax(largest, fabs(again[i] - output[i]));
+    }
+    char text[120];
+    (void)snprintf(text, sizeof text, "%s %s: %.3g, %zu clamped", use.effect->name,
+                   use.effect->mechanism != NULL ? use.effect->mechanism : "", largest, num_clamped);
+    TEST_ASSERT_TRUE_MESSAGE(largest <= effect_case_bound(of, &model, &record), text);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, num_clamped, text);
+}
+
 static void inverse_gives_the_wanted_output(void)
 {
     double* command = xcalloc(record.num_samples, sizeof(double));
     double* clamped = xcalloc(record.num_samples, sizeof(double));
     double* again = xcalloc(record.num_samples, sizeof(double));
-    for (size_t c = 0; c < effect_case_count(); ++c) {
-        const effect_use_t use = effect_case_use(effect_case_at(c));
-        if (use.effect->no_inverse != NULL) {
-            continue;
+    for (size_t c = 0; c < effect_case_count() + NUM_HELD; ++c) {
+        const effect_case_t* of = c < NUM_HELD ? &held_cases[c] : effect_case_at(c - NUM_HELD);
+        if (effect_case_use(of).effect->no_inverse == NULL) {
+            inverse_gives_back(of, command, clamped, again);
         }
-        effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
-        effect_invert(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output, command, clamped);
-        effect_run_t back = run;
-        back.input = command;
-        effect_simulate(&back, &model, START_NEGATIVE_SATURATION, &use, 1, again);
-        double largest = 0.0;
-        size_t num_clamped = 0;
-        for (size_t i = 0; i < record.num_samples; ++i) {
-            num_clamped += clamped[i] > 0.0 ? 1 : 0;
-            largest = fmax(largest, fabs(again[i] - output[i]));
-        }
-        char text[120];
-        (void)snprintf(text, sizeof text, "%s %s: %.3g, %zu clamped", use.effect->name,
-                       use.effect->mechanism != NULL ? use.effect->mechanism : "", largest, num_clamped);
-        TEST_ASSERT_TRUE_MESSAGE(largest <= effect_case_bound(effect_case_at(c), &model, &record), text);
-        TEST_ASSERT_EQUAL_UINT_MESSAGE(0, num_clamped, text);
     }
     free(command);
     free(clamped);
@@ -465,6 +533,7 @@ int main(void)
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);
     RUN_TEST(held_viscous_plays_are_sampled_filters);
+    RUN_TEST(what_is_between_samples_is_as_if_sampled);
     RUN_TEST(a_past_at_speed_needs_no_column);
     RUN_TEST(the_reference_shifts_the_column);
     RUN_TEST(order_is_the_catalogue_s);
