@@ -133,21 +133,49 @@ static void mind_outside(diagnosis_t* d)
     }
 }
 
+/// The input that shows more of what nothing explains.
+static void advise_on_unknown(const work_t* w, diagnosis_t* d)
+{
+    if (d->num_regions == 0) {
+        return;
+    }
+    char region[200];
+    const model_t* model = w->gap.model;
+    where_describe(&d->region[0], model->input_unit, model->output_unit, region, sizeof region);
+    const size_t length = strlen(d->advice);
+    d->next = next_input_along(&w->gap, d->region[0].axis);
+    snprintf(d->advice + length, sizeof d->advice - length,
+             "%sno effect of the catalogue explains it; apply %s, since %s, and diagnose that",
+             length > 0 ? "; " : "", d->next.what, region);
+}
+
 /// What to do next: the input that separates the verdict from its strongest rival, by simulation of both.
 static void advise(const work_t* w, diagnosis_t* d)
 {
-    if ((d->is_none && d->num_indistinguishable == 0) || d->num_causes < 2 ||
-        hypothesis_outside(d->cause[0].hypothesis) != NULL ||
+    const bool is_outside = hypothesis_outside(d->cause[0].hypothesis) != NULL;
+    if (d->is_unknown && !is_outside) {
+        advise_on_unknown(w, d);
+        return;
+    }
+    if ((d->is_none && d->num_indistinguishable == 0) || d->num_causes < 2 || is_outside ||
         hypothesis_outside(d->cause[1].hypothesis) != NULL ||
         (d->confident && d->num_indistinguishable == 0)) {
         return;
     }
     d->next = next_input_find(&w->gap, d->cause[0].hypothesis, d->cause[1].hypothesis);
     const size_t length = strlen(d->advice);
-    snprintf(d->advice + length, sizeof d->advice - length,
-             "%sapply %s: there the two leading explanations differ by %.3g in the output (noise and known "
-             "misfit: %.3g)",
-             length > 0 ? "; then " : "", d->next.what, d->next.separation, d->noise_floor);
+    char* text = d->advice + length;
+    const size_t room = sizeof d->advice - length;
+    const char* joint = length > 0 ? "; then " : "";
+    if (d->next.separation > 0) {
+        snprintf(text, room,
+                 "%sapply %s: there the two leading explanations differ by %.3g in the output (noise and "
+                 "known misfit: %.3g)",
+                 joint, d->next.what, d->next.separation, d->noise_floor);
+    } else {
+        snprintf(text, room, "%sapply %s: one of the two leading explanations follows it", joint,
+                 d->next.what);
+    }
 }
 
 /// The gap of the model over the whole record, none where it is not judged at the start; allocated.
@@ -288,7 +316,7 @@ static double least_left(const candidates_t* c)
 
 /// Mean square above the floor beyond which a further effect is looked for, in grains: less is not worth its
 /// price.
-static const double worth_grains = 0.7;
+static const double worth_grains = 0.2;
 
 /// Searches until one more effect cannot be worth its price.
 static void search(work_t* w, double noise)
@@ -341,6 +369,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     mind_outside(d);
     const hypothesis_t found = *d->cause[0].hypothesis;
     forecast_causes(&w, d);
+    d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
     advise(&w, d);
     message_progress("diagnose", 0.9);
     if (w.thinned.record.num_samples < record->num_samples && !d->is_unknown && !d->is_none) {
@@ -352,7 +381,6 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     const size_t num_handed_out = diagnosis_handed_out(d, handed_out);
     shrink_simulate(&w.gap, &w.whole, NULL, 0, d->before);
     shrink_simulate(&w.gap, &w.whole, handed_out, num_handed_out, d->after);
-    d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
     message_progress_done();
     d->hypothesis = w.candidates.hypothesis;
     d->num_hypotheses = w.candidates.count;

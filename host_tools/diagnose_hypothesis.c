@@ -303,7 +303,7 @@ static bool is_another(const hypothesis_t* hypothesis, const effect_run_t* run)
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
         const effect_t* effect = hypothesis->use[i].effect;
         const double* parameter = hypothesis->use[i].parameter;
-        if ((effect->is_another != NULL && effect->is_another(parameter)) ||
+        if ((effect->is_another != NULL && effect->is_another(run, parameter)) ||
             (effect->follows_input != NULL && effect->follows_input(run, parameter))) {
             return true;
         }

@@ -46,14 +46,15 @@ static double several_sizes(double x)
     return (1 - floor(cycles) / 12) * triangle(cycles);
 }
 
+enum { STEPS, SPEEDS, REPEATED, SWEEP, SIZES };
 static const struct {
     const char* what;
     double (*shape)(double x);
-} shapes[] = {{"steps with long holds", steps_with_holds},
-              {"the same loop at several speeds", several_speeds},
-              {"the same loop repeated many times at one speed", repeated_loops},
-              {"a frequency sweep over the full range", sweep},
-              {"loops of several sizes", several_sizes}};
+} shapes[] = {[STEPS] = {"steps with long holds", steps_with_holds},
+              [SPEEDS] = {"the same loop at several speeds", several_speeds},
+              [REPEATED] = {"the same loop repeated many times at one speed", repeated_loops},
+              [SWEEP] = {"a frequency sweep over the full range", sweep},
+              [SIZES] = {"loops of several sizes", several_sizes}};
 
 static bool needs_column(const hypothesis_t* hypothesis)
 {
@@ -82,25 +83,38 @@ static double separation(const gap_t* gap, const hypothesis_t* a, const hypothes
     return sqrt(sum / (double)record->num_samples);
 }
 
-next_input_t next_input_find(const gap_t* gap, const hypothesis_t* a, const hypothesis_t* b)
+static void draw_shape(const model_t* model, size_t shape, double* input)
 {
-    next_input_t next = {.what = "", .num_samples = NEXT_SAMPLES};
-    if (needs_column(a) || needs_column(b)) {
-        next.what = "the same loop repeated while the auxiliary column changes";
+    const double centre = 0.5 * (model->input_min + model->input_max);
+    const double half = 0.5 * (model->input_max - model->input_min);
+    for (size_t t = 0; t < NEXT_SAMPLES; t++) {
+        input[t] = centre + half * shapes[shape].shape((double)t / NEXT_SAMPLES);
     }
+}
+
+/// As long as the record.
+static next_input_t next_of(const gap_t* gap, size_t shape)
+{
+    next_input_t next = {.what = shapes[shape].what, .num_samples = NEXT_SAMPLES};
     next.time = xmalloc(NEXT_SAMPLES * sizeof *next.time);
     next.input = xmalloc(NEXT_SAMPLES * sizeof *next.input);
-    double* trial = xmalloc(NEXT_SAMPLES * sizeof *trial);
-    const double centre = 0.5 * (gap->model->input_min + gap->model->input_max);
-    const double half = 0.5 * (gap->model->input_max - gap->model->input_min);
     for (size_t t = 0; t < NEXT_SAMPLES; t++) {
         next.time[t] = gap->run->duration * (double)t / (NEXT_SAMPLES - 1);
-        next.input[t] = centre + half * repeated_loops((double)t / NEXT_SAMPLES);
     }
-    for (size_t k = 0; k < sizeof shapes / sizeof *shapes && !needs_column(a) && !needs_column(b); k++) {
-        for (size_t t = 0; t < NEXT_SAMPLES; t++) {
-            trial[t] = centre + half * shapes[k].shape((double)t / NEXT_SAMPLES);
-        }
+    draw_shape(gap->model, shape, next.input);
+    return next;
+}
+
+next_input_t next_input_find(const gap_t* gap, const hypothesis_t* a, const hypothesis_t* b)
+{
+    next_input_t next = next_of(gap, REPEATED);
+    if (needs_column(a) || needs_column(b)) {
+        next.what = "the same loop repeated while the auxiliary column changes";
+        return next;
+    }
+    double* trial = xmalloc(NEXT_SAMPLES * sizeof *trial);
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
+        draw_shape(gap->model, k, trial);
         const record_t record = {.num_samples = NEXT_SAMPLES, .time = next.time, .input = trial};
         const double distance = separation(gap, a, b, &record);
         if (distance > next.separation) {
@@ -111,6 +125,16 @@ next_input_t next_input_find(const gap_t* gap, const hypothesis_t* a, const hypo
     }
     free(trial);
     return next;
+}
+
+next_input_t next_input_along(const gap_t* gap, axis_t axis)
+{
+    static const size_t shape[NUM_AXES] = {
+        [AXIS_TIME] = REPEATED,   [AXIS_INPUT] = SIZES,      [AXIS_OUTPUT] = SIZES,
+        [AXIS_RATE] = SPEEDS,     [AXIS_DEPTH] = SIZES,      [AXIS_SINCE_REVERSAL] = STEPS,
+        [AXIS_FREQUENCY] = SWEEP, [AXIS_DIRECTION] = SPEEDS,
+    };
+    return next_of(gap, shape[axis]);
 }
 
 void next_input_free(next_input_t* next)

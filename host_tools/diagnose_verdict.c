@@ -89,10 +89,9 @@ static const double in_set_from = 0.25;
 /// Nothing is named that is not this many times as likely as no effect: a false alarm sends somebody after a
 /// fault that is not there, what is passed over stands beside the verdict.
 static const double alarm_from = 6;
-/// Of the energy above the floor, what the best explanation may leave without being unknown, and what it may
-/// leave where a flexible predictor still finds structure in it.
-static const double left_at_most = 0.25;
-static const double structure_left_at_most = 0.15;
+/// Of the energy above the floor, what the best explanation may leave without being unknown: on open cases
+/// right ones left up to 0.05, those of effects outside the catalogue 0.19 and more.
+static const double left_at_most = 0.15;
 /// In parts of the floor, what may stand above it before anything is unknown: floors are known no better.
 static const double known_to = 1.5;
 
@@ -175,8 +174,7 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     d->structure = structure_left(c->gap, leader);
     const bool is_outside = hypothesis_outside(leader) != NULL;
     d->is_unknown =
-        is_outside || (above_floor(scale, leader) > known_to * scale->floor &&
-                       (left > left_at_most || (left > structure_left_at_most && d->structure > 0.3)));
+        is_outside || (above_floor(scale, leader) > known_to * scale->floor && left > left_at_most);
     if (!d->is_unknown) {
         mind_alarms(d);
     }

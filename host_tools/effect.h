@@ -84,9 +84,9 @@ struct effect {
     /// Sets what was fitted to this record's own course to what is expected of another. May be NULL.
     void (*for_another_record)(double* parameter);
     void (*limits)(const effect_run_t* run, size_t parameter, effect_limits_t* limits);
-    /// Whether these parameters make it another effect of the catalogue (creep of one time constant is a
-    /// lag), so that a fit that ends there says nothing for this one. May be NULL.
-    bool (*is_another)(const double* parameter);
+    /// Whether with these parameters it cannot be told from another effect of the catalogue in the run (creep
+    /// of one time constant is a lag), so that a fit that ends there says nothing for this one. May be NULL.
+    bool (*is_another)(const effect_run_t* run, const double* parameter);
     /// Whether with these parameters it cannot be told from an answer to the run's own input, though it is
     /// meant to be unrelated to it: such a fit says nothing for it either. May be NULL.
     bool (*follows_input)(const effect_run_t* run, const double* parameter);

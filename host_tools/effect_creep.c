@@ -76,8 +76,9 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
 }
 
 /// Within a decade the spread of lags cannot be told from one.
-static bool is_one_lag(const double* parameter)
+static bool is_one_lag(const effect_run_t* run, const double* parameter)
 {
+    (void)run;
     return parameter[TAU_SLOW] < 10.0 * parameter[TAU_FAST] &&
            parameter[TAU_FAST] < 10.0 * parameter[TAU_SLOW];
 }

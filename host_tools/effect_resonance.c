@@ -114,10 +114,11 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     series_invert(run, parameter, apply_series, lead_series, series);
 }
 
-/// Past this damping nothing rings: a step's overshoot is below a tenth, as a lag's.
-static bool is_lag(const double* parameter)
+/// Past this damping nothing rings: a step's overshoot is below a tenth, as a lag's. Nor does it in the
+/// samples of a mode above half their rate: one that rings a whole number of times between them is a lag.
+static bool is_lag(const effect_run_t* run, const double* parameter)
 {
-    return parameter[DAMPING] > 0.6;
+    return parameter[DAMPING] > 0.6 || parameter[FREQUENCY] * run->sample_time > 0.5;
 }
 
 const effect_t effect_resonance = {

@@ -227,6 +227,13 @@ static void test_stranger_is_unknown(void)
     TEST_ASSERT_EQUAL(AXIS_TIME, diagnosis.region[0].axis);
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 12, diagnosis.region[0].from);
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 15, diagnosis.region[0].to);
+    // What lies along time is looked at in loops that repeat, over the model's range.
+    TEST_ASSERT_NOT_NULL(strstr(diagnosis.advice, "the same loop repeated"));
+    TEST_ASSERT_EQUAL(4000, diagnosis.next.num_samples);
+    for (size_t t = 0; t < diagnosis.next.num_samples; t++) {
+        TEST_ASSERT_TRUE(diagnosis.next.input[t] >= model.input_min - 1e-12);
+        TEST_ASSERT_TRUE(diagnosis.next.input[t] <= model.input_max + 1e-12);
+    }
 }
 
 /// Heat that nobody measures is no effect of the catalogue, and no drift either: the verdict says what it
