@@ -4,7 +4,6 @@
 #include "diagnose_json.h"
 #include "diagnose_report.h"
 #include "diagnose_shrink.h"
-#include "diagnose_structure.h"
 #include "diagnose_text.h"
 #include "diagnose_trial.h"
 #include "model_file.h"

@@ -6,11 +6,11 @@
 #include "diagnose_scope.h"
 #include "diagnose_search.h"
 #include "diagnose_shrink.h"
-#include "diagnose_structure.h"
 #include "diagnose_verdict.h"
 #include "parallel.h"
 #include "record_thin.h"
 #include "series.h"
+#include "white_noise.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -314,8 +314,8 @@ static double least_left(const candidates_t* c)
     return least;
 }
 
-/// Mean square above the floor beyond which a further effect is looked for, in grains: less is not worth its
-/// price.
+/// Mean square above the floor beyond which a further effect is looked for, in grains: a pair is worth its
+/// price where it leaves far less than the floor, which is known no better.
 static const double worth_grains = 0.2;
 
 /// Searches until one more effect cannot be worth its price.

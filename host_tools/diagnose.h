@@ -50,7 +50,6 @@ typedef struct {
     bool is_unknown;          ///< the verdict is ["unknown"]
     bool is_none;             ///< the verdict is []
     bool confident;
-    double structure; ///< part of the remaining gap that a flexible predictor still finds, held out
     size_t num_indistinguishable;
     size_t indistinguishable[8]; ///< indices into cause
     char advice[800];

@@ -1,9 +1,9 @@
 #include "diagnose_chain.h"
 
-#include "diagnose_structure.h"
 #include "input_file.h"
 #include "model_file.h"
 #include "reference.h"
+#include "white_noise.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 #include "diagnose_verdict.h"
 
-#include "diagnose_structure.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -151,19 +150,6 @@ static void mind_alarms(diagnosis_t* d)
     }
 }
 
-/// The part of the residual that a flexible predictor still finds.
-static double structure_left(const gap_t* gap, const hypothesis_t* leader)
-{
-    const size_t n = gap->run->num_samples;
-    double* residual = xmalloc(n * sizeof *residual);
-    for (size_t t = 0; t < n; t++) {
-        residual[t] = gap->output[t] - leader->predicted[t];
-    }
-    const double structure = structure_found(gap, leader->predicted, residual);
-    free(residual);
-    return structure;
-}
-
 void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
 {
     weigh(scale, c, d);
@@ -171,7 +157,6 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     const hypothesis_t* leader = d->cause[0].hypothesis;
     const double above = above_floor(scale, &c->hypothesis[0]);
     const double left = above > 0 ? above_floor(scale, leader) / above : 0;
-    d->structure = structure_left(c->gap, leader);
     const bool is_outside = hypothesis_outside(leader) != NULL;
     d->is_unknown =
         is_outside || (above_floor(scale, leader) > known_to * scale->floor && left > left_at_most);
@@ -184,7 +169,6 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
             d->indistinguishable[d->num_indistinguishable++] = k;
         }
     }
-    d->confident = d->is_unknown && !is_outside
-                       ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
-                       : d->cause[0].probability >= confident_from && !(left > 0.1 && left < 0.3);
+    d->confident = d->is_unknown && !is_outside ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
+                                                : d->cause[0].probability >= confident_from && left <= 0.1;
 }

@@ -48,7 +48,10 @@ void series_invert(const effect_run_t* run, const double* parameter, series_map_
     double* defect = xmalloc(size);
     memcpy(trial, series, size);
     lead(run, parameter, trial);
-    double least = HUGE_VAL;
+    // Better than nothing is what the wanted series itself would give.
+    memcpy(given, series, size);
+    apply(run, parameter, given);
+    double least = largest_defect(wanted, given, count, defect);
     for (int i = 0; i < CORRECTIONS; ++i) {
         memcpy(given, trial, size);
         apply(run, parameter, given);

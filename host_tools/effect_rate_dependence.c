@@ -13,12 +13,12 @@
 /// coefficient >= 0 [envelope units per
 /// input/s], fitted up to where the mean rate doubles the largest radius; excess >= 0 [input units per root
 /// of input/s], fitted up to half the range behind at the mean rate. share 0 ... 1: how much of the
-/// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. hold as for that
-/// (behind a diffusion its own counts). They count a quarter of an effect more, as with a share of 1 a small
-/// one is a lag of the input. Inverse: by halving,
-/// sample by sample; widening has none. Sources: viscous plays as in G. Bertotti's dynamic Preisach model,
-/// IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S. Rakheja, C.-Y. Su, Mechatronics 19
-/// (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
+/// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. hold 0 ... 1 as
+/// for that; a diffusion's counts for an excess field behind it, too. They count a quarter of an effect more,
+/// as with a share of 1 a small one is a lag of the input. Inverse: by halving, sample by sample; widening
+/// has none. Sources: viscous plays as in G. Bertotti's dynamic Preisach model, IEEE Trans. Magn. 28 (1992)
+/// 2599; widening radii: M. Al Janaideh, S. Rakheja, C.-Y. Su, Mechatronics 19 (2009) 656; classical and
+/// excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -74,9 +74,11 @@ static void configure_diffusion(const effect_run_t* run, const double* parameter
 {
     (void)run;
     (void)column;
-    hysteresis->field.diffusion += parameter[0];
-    hysteresis->field.hold = parameter[0] > 0.0 ? parameter[2] : hysteresis->field.hold;
-    configure_share(parameter[1], &hysteresis->field);
+    if (parameter[0] > 0.0) {
+        hysteresis->field.diffusion += parameter[0];
+        hysteresis->field.hold = parameter[2];
+        configure_share(parameter[1], &hysteresis->field);
+    }
 }
 
 static void configure_excess(const effect_run_t* run, const double* parameter, const double* column,
@@ -84,9 +86,11 @@ static void configure_excess(const effect_run_t* run, const double* parameter, c
 {
     (void)run;
     (void)column;
-    hysteresis->field.excess += parameter[0];
-    hysteresis->field.hold = hysteresis->field.diffusion > 0.0 ? hysteresis->field.hold : parameter[2];
-    configure_share(parameter[1], &hysteresis->field);
+    if (parameter[0] > 0.0) {
+        hysteresis->field.excess += parameter[0];
+        hysteresis->field.hold = hysteresis->field.diffusion > 0.0 ? hysteresis->field.hold : parameter[2];
+        configure_share(parameter[1], &hysteresis->field);
+    }
 }
 
 static void configure_lag(const effect_run_t* run, const double* parameter, const double* column,

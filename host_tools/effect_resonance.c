@@ -114,11 +114,12 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
     series_invert(run, parameter, apply_series, lead_series, series);
 }
 
-/// Past this damping nothing rings: a step's overshoot is below a tenth, as a lag's. Nor does it in the
-/// samples of a mode above half their rate: one that rings a whole number of times between them is a lag.
-static bool is_lag(const effect_run_t* run, const double* parameter)
+/// Past this damping nothing rings: a step's overshoot is below a tenth, as a lag's. A mode above half the
+/// samples' rate shows as its alias, the slower the nearer it is to the rate, where it is a lag or a part of
+/// a delay. Just above the half the alias is as quick, and a fit may take it for the mode.
+static bool does_not_ring(const effect_run_t* run, const double* parameter)
 {
-    return parameter[DAMPING] > 0.6 || parameter[FREQUENCY] * run->sample_time > 0.5;
+    return parameter[DAMPING] > 0.6 || parameter[FREQUENCY] * run->sample_time > 0.6;
 }
 
 const effect_t effect_resonance = {
@@ -128,7 +129,7 @@ const effect_t effect_resonance = {
     .num_parameters = COUNT_OF(parameters),
     .parameter = parameters,
     .limits = limits,
-    .is_another = is_lag,
+    .is_another = does_not_ring,
     .apply = apply,
     .invert = invert,
 };

@@ -40,6 +40,8 @@ static void diffuse(const field_t* field, const field_state_t* from, field_state
     }
 }
 
+static const double quarter_turn = 1.57079632679489662;
+
 /// Where a gap g ends that opens evenly at `speed` and closes by (g / excess)^2: dg/dt = speed - (g /
 /// excess)^2, a tangent of time where g has the other sign than the speed, a hyperbolic one where it has the
 /// same.
@@ -55,11 +57,12 @@ static double gap_after(double gap, double speed, double excess, double step)
     const double rate = sqrt(speed) / excess;
     double left = step;
     if (gap < 0) {
-        const double angle = atan(gap / steady);
-        if (angle + rate * step < 0) {
-            return steady * tan(angle + rate * step);
+        // As a sum of angles: far behind a slow input atan would be a right angle to the last digit.
+        const double turned = tan(fmin(rate * step, quarter_turn));
+        if (rate * step < quarter_turn && gap + steady * turned < 0) {
+            return steady * (gap + steady * turned) / (steady - gap * turned);
         }
-        left += angle / rate;
+        left += atan(gap / steady) / rate;
         gap = 0;
     }
     const double part = tanh(rate * left);

@@ -4,7 +4,8 @@
 ///                LP_k a first-order lag of tau / (2k+1)^2
 ///     excess:    d seen/dt = ((v - seen) / excess)^2, signed: on a ramp it trails by excess * sqrt(rate)
 /// Both exact for the input between the samples, but for the modes beyond the sixth, 3 % of the weight with
-/// time constants below tau / 169, which are taken as instantaneous. Sources: G. Bertotti,
+/// time constants below tau / 169, which are taken as instantaneous, and for an excess field behind a
+/// diffusion, whose course is taken to go straight. Sources: G. Bertotti,
 /// IEEE Trans. Magn. 24 (1988) 621 (classical and excess field).
 #ifndef HYST_HOST_FIELD_H
 #define HYST_HOST_FIELD_H

@@ -479,6 +479,8 @@ static void inverse_gives_back(const effect_case_t* of, double* command, double*
                    use.effect->mechanism != NULL ? use.effect->mechanism : "", largest, num_clamped);
     TEST_ASSERT_TRUE_MESSAGE(largest <= effect_case_bound(of, &model, &record), text);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, num_clamped, text);
+    // And nearer than what the effect changes, where it changes anything.
+    TEST_ASSERT_TRUE_MESSAGE(largest <= 0.5 * largest_difference(plain, output, record.num_samples), text);
 }
 
 static void inverse_gives_the_wanted_output(void)
