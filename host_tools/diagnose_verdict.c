@@ -169,6 +169,7 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
             d->indistinguishable[d->num_indistinguishable++] = k;
         }
     }
-    d->confident = d->is_unknown && !is_outside ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
-                                                : d->cause[0].probability >= confident_from && !(left > 0.1 && left < 0.3);
+    d->confident = d->is_unknown && !is_outside
+                       ? left > 0.6 && above_floor(scale, leader) > 2 * scale->floor
+                       : d->cause[0].probability >= confident_from && !(left > 0.1 && left < 0.3);
 }

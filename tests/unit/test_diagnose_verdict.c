@@ -1,33 +1,18 @@
 #include "diagnose_verdict.h"
 
-#include "classical_model.h"
 #include "effect_catalogue.h"
 #include <math.h>
 #include <stdlib.h>
 #include <unity.h>
 
-enum { SAMPLES = 600, MOST = 3 };
+enum { MOST = 3 };
 
-static model_t model;
-static double input[SAMPLES], output[SAMPLES];
-static record_t record;
-static effect_run_t run;
-static gap_t gap;
-static const nuisance_t nothing;
 static hypothesis_t hypotheses[MOST];
 static const effect_use_t rounding = {.effect = &effect_quantization, .parameter = {0.1, 0}};
 static const effect_use_t gain = {.effect = &effect_gain_offset, .parameter = {1.1, 0}};
 
 void setUp(void)
 {
-    model = classical_model(3);
-    for (size_t t = 0; t < SAMPLES; t++) {
-        input[t] = 5 - 4 * cos(0.05 * (double)t);
-    }
-    record = (record_t){.path = "made.csv", .num_samples = SAMPLES, .input = input, .output = output};
-    run = effect_run_new(&model, &record);
-    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, NULL, 0, output);
-    gap = gap_new(&model, &run, START_NEGATIVE_SATURATION, output, NULL, &nothing, 1);
 }
 
 void tearDown(void)
@@ -35,25 +20,18 @@ void tearDown(void)
     for (size_t k = 0; k < MOST; k++) {
         hypothesis_free(&hypotheses[k]);
     }
-    gap_free(&gap);
-    effect_run_free(&run);
-    model_free(&model);
 }
 
-/// One that leaves this mean square, none of it structure.
+/// One that leaves this mean square.
 static void put(size_t index, const effect_use_t* uses, size_t num_uses, double mean_square)
 {
     hypotheses[index] = hypothesis_of(uses, num_uses);
     hypotheses[index].fit_rmse = sqrt(mean_square);
-    hypotheses[index].predicted = xmalloc(SAMPLES * sizeof(double));
-    for (size_t t = 0; t < SAMPLES; t++) {
-        hypotheses[index].predicted[t] = output[t];
-    }
 }
 
 static diagnosis_t judge(const scale_t* scale, size_t count)
 {
-    const candidates_t candidates = {.gap = &gap, .count = count, .hypothesis = hypotheses};
+    const candidates_t candidates = {.count = count, .hypothesis = hypotheses};
     diagnosis_t d = {0};
     verdict_find(scale, &candidates, &d);
     return d;
@@ -107,6 +85,20 @@ static void test_nor_beside_a_known_converter(void)
     check_alarm(uses, 1);
 }
 
+/// The stated part of the verdict's weight is a quarter.
+static void test_what_is_a_quarter_as_likely_cannot_be_told(void)
+{
+    const effect_use_t uses[] = {gain};
+    put(0, NULL, 0, 2);
+    for (size_t more = 0; more < 2; more++) {
+        put_with_odds(uses, 1, more == 1 ? 0.26 : 0.24);
+        diagnosis_t d = judge(&scale, 2);
+        TEST_ASSERT_EQUAL_PTR(&hypotheses[0], d.cause[0].hypothesis);
+        TEST_ASSERT_EQUAL_UINT(more, d.num_indistinguishable);
+        free(d.cause);
+    }
+}
+
 /// Of 100 above the floor the best leaves 14 or 16; the floor is far below either.
 static void test_what_leaves_over_15_percent_is_unknown(void)
 {
@@ -140,6 +132,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_nothing_is_named_that_is_hardly_likelier_than_nothing);
     RUN_TEST(test_nor_beside_a_known_converter);
+    RUN_TEST(test_what_is_a_quarter_as_likely_cannot_be_told);
     RUN_TEST(test_what_leaves_over_15_percent_is_unknown);
     RUN_TEST(test_the_floor_is_lowered_by_what_is_left);
     return UNITY_END();

@@ -368,7 +368,7 @@ static const effect_case_t held_cases[] = {
     {"rate_dependence", "excess", {0.15, 0.3, 0.6}, 1.0},
     {"resonance", NULL, {41.7, 0.1, 0.12, 0.3, 0.4}, 6.4},
 };
-enum { NUM_HELD = sizeof held_cases / sizeof held_cases[0] };
+enum { NUM_HELD = sizeof held_cases / sizeof held_cases[0], HELD_MODE = NUM_HELD - 1 };
 
 /// A course that is straight but for what it does within `sudden` of each sample: from[i] + hold of the step
 /// just after a sample, without `late` of the rest just before the next.
@@ -381,47 +381,105 @@ static void bend_course(const double* straight, double hold, double late, double
     }
 }
 
-/// Parameters for the course between the samples do what samples there do. What moves within `sudden` of a
-/// sample's time instead of at it comes later by that part of it: `sudden` samples' motion, twice.
-static void what_is_between_samples_is_as_if_sampled(void)
+/// Within this part of a sample's time a course bends.
+static const double sudden = 1e-6;
+
+/// The case as its parameters say, in output[], and without those of the course, run over the bent one, in
+/// bent_output[3 i]. What moves within `sudden` of a sample's time instead of at it comes later by that part
+/// of it: `sudden` samples' motion, twice.
+static void check_course(const effect_case_t* of, const double* bent_output)
 {
-    const double sudden = 1e-6;
+    const double motion = effect_case_speed(&model, &record) * run.sample_time;
+    for (size_t i = 0; i < CASE_SAMPLES; ++i) {
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(of->gain * 2.0 * sudden * motion, bent_output[3 * i], output[i],
+                                          of->mechanism != NULL ? of->mechanism : of->name);
+    }
+}
+
+static void a_held_field_is_as_if_sampled(void)
+{
     record_t fine = effect_case_record((const double[]){sudden, 1.0 - sudden}, 2);
     double* straight = xcalloc(fine.num_samples, sizeof(double));
-    double* dense = xcalloc(fine.num_samples, sizeof(double));
-    const double motion = effect_case_speed(&model, &record) * run.sample_time;
+    double* bent_output = xcalloc(fine.num_samples, sizeof(double));
     memcpy(straight, fine.input, fine.num_samples * sizeof(double));
-    for (size_t c = 0; c < NUM_HELD; ++c) {
+    for (size_t c = 0; c < HELD_MODE; ++c) {
         effect_use_t use = effect_case_use(&held_cases[c]);
-        const bool is_mode = use.effect->stage == EFFECT_SENSOR;
-        const double* between = &use.parameter[use.effect->num_parameters - (is_mode ? 2 : 1)];
+        double* hold = &use.parameter[use.effect->num_parameters - 1];
         effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
-        if (!is_mode) {
-            bend_course(straight, between[0], 0.0, fine.input);
-        }
+        bend_course(straight, *hold, 0.0, fine.input);
+        *hold = 0.0;
         effect_run_t fine_run = effect_run_new(&model, &fine);
-        if (is_mode) { // its course is the output, which goes as the samples tell
-            for (size_t i = 0; i < CASE_SAMPLES; ++i) {
-                straight[3 * i] = plain[i];
-            }
-            bend_course(straight, between[0], between[1], straight);
-        }
-        memset(&use.parameter[between - use.parameter], 0, (is_mode ? 2 : 1) * sizeof(double));
-        memcpy(dense, straight, fine.num_samples * sizeof(double));
-        if (is_mode) {
-            effect_use_apply(&fine_run, &use, dense);
-        } else {
-            effect_simulate(&fine_run, &model, START_NEGATIVE_SATURATION, &use, 1, dense);
-        }
-        for (size_t i = 0; i < CASE_SAMPLES; ++i) {
-            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(held_cases[c].gain * 2.0 * sudden * motion, dense[3 * i],
-                                              output[i], use.effect->name);
-        }
+        effect_simulate(&fine_run, &model, START_NEGATIVE_SATURATION, &use, 1, bent_output);
+        check_course(&held_cases[c], bent_output);
         effect_run_free(&fine_run);
     }
     free(straight);
-    free(dense);
+    free(bent_output);
     record_free(&fine);
+}
+
+/// Its course is the output, as the samples tell.
+static void a_held_mode_is_as_if_sampled(void)
+{
+    record_t fine = effect_case_record((const double[]){sudden, 1.0 - sudden}, 2);
+    effect_run_t fine_run = effect_run_new(&model, &fine);
+    double* course = xcalloc(fine.num_samples, sizeof(double));
+    effect_use_t use = effect_case_use(&held_cases[HELD_MODE]);
+    double* between = &use.parameter[use.effect->num_parameters - 2];
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    for (size_t i = 0; i < CASE_SAMPLES; ++i) {
+        course[3 * i] = plain[i];
+    }
+    bend_course(course, between[0], between[1], course);
+    between[0] = 0.0;
+    between[1] = 0.0;
+    effect_use_apply(&fine_run, &use, course);
+    check_course(&held_cases[HELD_MODE], course);
+    free(course);
+    effect_run_free(&fine_run);
+    record_free(&fine);
+}
+
+/// What the plays see rises with the input however little that moves, also far behind a slow input (the
+/// inverse halves between such): rounding of numbers up to 2 aside.
+static void a_field_inside_rises_with_the_input(void)
+{
+    const double holds[] = {0.0, 0.5, 1.0 - 1e-9, 1.0 - 1e-12, 1.0};
+    for (size_t h = 0; h < sizeof holds / sizeof holds[0]; ++h) {
+        const field_t field = {.excess = 0.15, .hold = holds[h]};
+        field_state_t state = field_start(2.0);
+        state = field_next(&field, &state, 0.0, 0.004);
+        double before = field_next(&field, &state, 0.0, 0.004).seen;
+        TEST_ASSERT_TRUE(before > 0.0);
+        for (double move = 1e-17; move < 2.0; move *= 3.0) {
+            const double seen = field_next(&field, &state, move, 0.004).seen;
+            TEST_ASSERT_TRUE(seen >= before - 8.0 * DBL_EPSILON);
+            before = seen;
+        }
+    }
+}
+
+/// Behind a diffusion the excess field's own hold says nothing; an entry of 0 changes nothing.
+static void a_diffusion_s_hold_counts(void)
+{
+    const effect_use_t diffusion =
+        effect_case_use(&(effect_case_t){"rate_dependence", "diffusion", {0.1, 0.25, 0.7}, 1.0});
+    const effect_use_t excess =
+        effect_case_use(&(effect_case_t){"rate_dependence", "excess", {0.1, 0.5, 0.3}, 1.0});
+    effect_use_t none = excess;
+    none.parameter[0] = 0.0;
+    const effect_use_t orders[2][3] = {{diffusion, excess, none}, {none, excess, diffusion}};
+    for (size_t k = 0; k < 2; ++k) {
+        hysteresis_t both = effect_hysteresis(&run, orders[k], 3);
+        TEST_ASSERT_EQUAL_DOUBLE(0.7, both.field.hold);
+        TEST_ASSERT_DOUBLE_WITHIN(4.0 * DBL_EPSILON, 1.0 - 0.75 * 0.5, both.field.share);
+        hysteresis_free(&both);
+    }
+    const effect_use_t last[] = {excess, none};
+    hysteresis_t one = effect_hysteresis(&run, last, 2);
+    TEST_ASSERT_EQUAL_DOUBLE(0.3, one.field.hold);
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, one.field.share);
+    hysteresis_free(&one);
 }
 
 /// A width that is 0 leaves plays that trail where they are, and nothing is read beyond its one sample.
@@ -535,7 +593,10 @@ int main(void)
     RUN_TEST(json_gives_the_use_back);
     RUN_TEST(a_held_lag_is_a_sampled_filter);
     RUN_TEST(held_viscous_plays_are_sampled_filters);
-    RUN_TEST(what_is_between_samples_is_as_if_sampled);
+    RUN_TEST(a_held_field_is_as_if_sampled);
+    RUN_TEST(a_held_mode_is_as_if_sampled);
+    RUN_TEST(a_field_inside_rises_with_the_input);
+    RUN_TEST(a_diffusion_s_hold_counts);
     RUN_TEST(a_past_at_speed_needs_no_column);
     RUN_TEST(the_reference_shifts_the_column);
     RUN_TEST(order_is_the_catalogue_s);
