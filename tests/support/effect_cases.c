@@ -42,7 +42,7 @@ static const effect_case_t cases[] = {
     {"unknown", "self_heating_friction", {1.5, 0.02, 0.05}, 3.0},
     {"initial_state", NULL, {0.4, 0.5, 0.6, 0.7, 0.6, 0.5}, 1.0},
     {"initial_state", "turning_points", {0.9, -0.5, 0.6, -0.1}, 1.0},
-    {"output_lag", NULL, {0.12}, 1.0},
+    {"output_lag", NULL, {0.12, 0.3}, 1.0},
     {"resonance", NULL, {1.5, 0.1, 0.12}, 6.4},
     {"backlash", NULL, {0.2, 0.6, 0.012}, 2.0},
     {"output_saturation", NULL, {-0.9, 0.8, 0.05}, 0.0},

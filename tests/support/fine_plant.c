@@ -467,7 +467,9 @@ static double sensor(plant_t* plant, double y, double time)
     }
     if (is(plant, "output_lag")) {
         plant->place += plant->dt / p[0] * (y - plant->place);
-        return plant->place;
+        plant->before = plant->started ? plant->before : y;
+        plant->before += plant->dt / (p[1] * p[0]) * (plant->place - plant->before);
+        return plant->before;
     }
     if (is(plant, "resonance")) {
         const double w = 2 * acos(-1.0) * p[0];

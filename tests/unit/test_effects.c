@@ -325,7 +325,7 @@ static void json_gives_the_use_back(void)
 static void a_held_lag_is_a_sampled_filter(void)
 {
     const double tau = 0.02;
-    const effect_use_t use = effect_case_use(&(effect_case_t){"output_lag", NULL, {tau, 1.0}, 1.0});
+    const effect_use_t use = effect_case_use(&(effect_case_t){"output_lag", NULL, {tau, 0.0, 1.0}, 1.0});
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
     double y = plain[0];
     for (size_t i = 1; i < run.num_samples; ++i) {
