@@ -2,6 +2,8 @@
 #include "diagnose.h"
 #include "effect_catalogue.h"
 #include "random.h"
+#include <cblas.h>
+#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <unity.h>
@@ -11,7 +13,6 @@ enum { SAMPLES = 200000, PLAYS = 8 };
 static double time_of[SAMPLES];
 static double input[SAMPLES];
 static double output[SAMPLES];
-static double shifted[SAMPLES];
 static model_t model;
 static record_t record;
 static effect_run_t run;
@@ -66,21 +67,40 @@ static void make_output(const effect_use_t* truth)
     TEST_ASSERT_EQUAL(OUTCOME_OK, diagnose(&model, &record, &options, &diagnosis));
 }
 
-/// Standard deviation of the least-squares estimate of the truth's only parameter from all samples: the noise
-/// over the root of the sum of squared sensitivities.
-static double parameter_scatter(const effect_use_t* truth)
+/// slope[SAMPLES] := the output's derivative by a parameter.
+static void find_slope(const effect_use_t* truth, size_t parameter, double* slope)
 {
+    const effect_limits_t limits = effect_use_limits(&run, truth, parameter);
+    const double change =
+        1e-4 * (limits.logarithmic ? truth->parameter[parameter] : limits.high - limits.low);
     static double at[SAMPLES];
     effect_use_t beside = *truth;
-    const double change = 1e-4 * truth->parameter[0];
-    beside.parameter[0] += change;
+    beside.parameter[parameter] += change;
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, truth, 1, at);
-    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &beside, 1, shifted);
-    double sum = 0;
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &beside, 1, slope);
     for (size_t t = 0; t < SAMPLES; t++) {
-        sum += pow((shifted[t] - at[t]) / change, 2);
+        slope[t] = (slope[t] - at[t]) / change;
     }
-    return noise / sqrt(sum);
+}
+
+/// Standard deviation of the least-squares estimate of the truth's first parameter from all samples, fitted
+/// with its others: the noise times the root of the first of the inverse of the slopes' products.
+static double parameter_scatter(const effect_use_t* truth)
+{
+    enum { MOST = 3 };
+    static double slope[MOST][SAMPLES];
+    const lapack_int n = (lapack_int)truth->effect->num_parameters;
+    double product[MOST * MOST];
+    TEST_ASSERT_TRUE(n <= MOST);
+    for (lapack_int p = 0; p < n; p++) {
+        find_slope(truth, (size_t)p, slope[p]);
+        for (lapack_int q = 0; q <= p; q++) {
+            product[p * n + q] = cblas_ddot(SAMPLES, slope[p], 1, slope[q], 1);
+        }
+    }
+    TEST_ASSERT_EQUAL(0, LAPACKE_dpotrf(LAPACK_ROW_MAJOR, 'L', n, product, n));
+    TEST_ASSERT_EQUAL(0, LAPACKE_dpotri(LAPACK_ROW_MAJOR, 'L', n, product, n));
+    return noise * sqrt(product[0]);
 }
 
 static void check_verdict(const effect_use_t* truth)
