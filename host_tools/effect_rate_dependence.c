@@ -26,19 +26,22 @@
 
 static const effect_parameter_t widening_parameter[] = {{"coefficient", "envelope/(input/s)", AT_LEAST_0}};
 
-#define SHARE                                                                                                \
+#define SHARE_PARAMETER                                                                                      \
     {                                                                                                        \
         "share", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true                          \
     }
 
-#define HOLD                                                                                                 \
+#define HOLD_PARAMETER                                                                                       \
     {                                                                                                        \
         "hold", "1", .least = 0.0, .most = 1.0, .optional = true                                             \
     }
 
-static const effect_parameter_t diffusion_parameters[] = {{"tau", "s", AT_LEAST_0}, SHARE, HOLD};
+enum { STRENGTH, SHARE, HOLD }; // of a field
+
+static const effect_parameter_t diffusion_parameters[] = {
+    {"tau", "s", AT_LEAST_0}, SHARE_PARAMETER, HOLD_PARAMETER};
 static const effect_parameter_t excess_parameters[] = {
-    {"excess", "input/sqrt(input/s)", AT_LEAST_0}, SHARE, HOLD};
+    {"excess", "input/sqrt(input/s)", AT_LEAST_0}, SHARE_PARAMETER, HOLD_PARAMETER};
 
 static effect_limits_t share_limits(double most)
 {
@@ -49,18 +52,18 @@ static effect_limits_t share_limits(double most)
 /// other modes fit what any real lag differs by from that.
 static void diffusion_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
-    *result = parameter == 0   ? limits_time_constant(run)
-              : parameter == 1 ? share_limits(0.85)
-                               : hold_limits();
+    *result = parameter == STRENGTH ? limits_time_constant(run)
+              : parameter == SHARE  ? share_limits(0.85)
+                                    : hold_limits();
 }
 
 static void excess_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     const double rate = run->travel > 0.0 ? run->travel / run->duration : 1.0;
     const double high = 0.5 * run->input_span / sqrt(rate);
-    *result = parameter == 0   ? limits_linear(0.0, high, 0.0, 0.03 * high, 0.15 * high, 0.005 * high)
-              : parameter == 1 ? share_limits(1.0)
-                               : hold_limits();
+    *result = parameter == STRENGTH ? limits_linear(0.0, high, 0.0, 0.03 * high, 0.15 * high, 0.005 * high)
+              : parameter == SHARE  ? share_limits(1.0)
+                                    : hold_limits();
 }
 
 /// Two fields behind each other: the nonhysteretic part is free of the share that either binds.
@@ -74,10 +77,10 @@ static void configure_diffusion(const effect_run_t* run, const double* parameter
 {
     (void)run;
     (void)column;
-    if (parameter[0] > 0.0) {
-        hysteresis->field.diffusion += parameter[0];
-        hysteresis->field.hold = parameter[2];
-        configure_share(parameter[1], &hysteresis->field);
+    if (parameter[STRENGTH] > 0.0) {
+        hysteresis->field.diffusion += parameter[STRENGTH];
+        hysteresis->field.hold = parameter[HOLD];
+        configure_share(parameter[SHARE], &hysteresis->field);
     }
 }
 
@@ -86,10 +89,10 @@ static void configure_excess(const effect_run_t* run, const double* parameter, c
 {
     (void)run;
     (void)column;
-    if (parameter[0] > 0.0) {
-        hysteresis->field.excess += parameter[0];
-        hysteresis->field.hold = hysteresis->field.diffusion > 0.0 ? hysteresis->field.hold : parameter[2];
-        configure_share(parameter[1], &hysteresis->field);
+    if (parameter[STRENGTH] > 0.0) {
+        hysteresis->field.excess += parameter[STRENGTH];
+        hysteresis->field.hold = hysteresis->field.diffusion > 0.0 ? hysteresis->field.hold : parameter[HOLD];
+        configure_share(parameter[SHARE], &hysteresis->field);
     }
 }
 
@@ -126,7 +129,7 @@ static const effect_parameter_t play_lag_parameters[] = {
     {"tau", "s", AT_LEAST_0},
     {"spread", "1", .least = -0.99, .most = 10.0, .optional = true},
     {"approach", "input/s", AT_LEAST_0, .optional = true},
-    HOLD,
+    HOLD_PARAMETER,
 };
 
 static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
