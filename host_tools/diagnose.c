@@ -372,7 +372,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     d->num_regions = where_find(&w.whole, record->output, difference, d->noise, d->region);
     advise(&w, d);
     message_progress("diagnose", 0.9);
-    if (w.thinned.record.num_samples < record->num_samples && !d->is_unknown && !d->is_none) {
+    if (w.gap.num_judged < record->num_samples - w.scope.first_judged && !d->is_unknown && !d->is_none) {
         fit_on_whole(&w, &d->cause[0], &found);
     }
     d->before = xmalloc(record->num_samples * sizeof *d->before);

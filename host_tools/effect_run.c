@@ -1,34 +1,12 @@
 #include "effect.h"
 #include "output_range.h"
 #include "reference.h"
+#include "sample_steps.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int ascending_order(const void* left, const void* right)
-{
-    const double a = *(const double*)left;
-    const double b = *(const double*)right;
-    return (a > b ? 1 : 0) - (a < b ? 1 : 0);
-}
-
-static double median_step(const double* time, size_t num_samples)
-{
-    if (num_samples < 2) {
-        return 1.0;
-    }
-    const size_t count = num_samples - 1;
-    double* step = xcalloc(count, sizeof(double));
-    for (size_t i = 0; i < count; ++i) {
-        step[i] = time[i + 1] - time[i];
-    }
-    qsort(step, count, sizeof(double), ascending_order);
-    const double median = step[count / 2];
-    free(step);
-    return median;
-}
 
 static double output_span(const model_t* model, const double* input, size_t num_samples)
 {
@@ -64,7 +42,7 @@ effect_run_t effect_run_new(const model_t* model, const record_t* record)
         }
         run.time = seconds;
     }
-    run.sample_time = median_step(run.time, count);
+    run.sample_time = sample_time_of(run.time, count);
     run.duration = count > 1 ? run.time[count - 1] - run.time[0] : run.sample_time;
     run.output_span = run.output_max - run.output_min;
     if (run.input == NULL) {

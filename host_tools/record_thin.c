@@ -1,6 +1,7 @@
 #include "record_thin.h"
 
 #include "model.h"
+#include "record_fill.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,6 +143,9 @@ thinned_t record_thin(const record_t* record, size_t most, size_t first_judged)
         }
     }
     free(choice.fate);
+    if (num_kept == n) {
+        record_fill(&thinned.record, &thinned.carried);
+    }
     return thinned;
 }
 

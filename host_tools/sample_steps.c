@@ -1,0 +1,61 @@
+#include "sample_steps.h"
+
+#include "model.h"
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+/// After more sample times than this nobody knows by what way the input came.
+static const double most_steps = 8;
+/// How far beside a multiple of the sample time a step may be.
+static const double tolerance = 0.1;
+
+static int ascending_order(const void* left, const void* right)
+{
+    const double a = *(const double*)left;
+    const double b = *(const double*)right;
+    return (a > b) - (a < b);
+}
+
+double sample_time_of(const double* time, size_t num_samples)
+{
+    if (num_samples < 2) {
+        return 1;
+    }
+    const size_t count = num_samples - 1;
+    double* step = xmalloc(count * sizeof *step);
+    for (size_t i = 0; i < count; i++) {
+        step[i] = time[i + 1] - time[i];
+    }
+    qsort(step, count, sizeof *step, ascending_order);
+    const double median = step[count / 2];
+    free(step);
+    return median;
+}
+
+static unsigned char steps_of(double sample_times)
+{
+    const double whole = round(sample_times);
+    return fabs(sample_times - whole) < tolerance && whole > 1 && whole <= most_steps ? (unsigned char)whole
+                                                                                      : 1;
+}
+
+unsigned char* sample_steps_new(const double* time, size_t num_samples)
+{
+    if (time == NULL || num_samples < 2) {
+        return NULL;
+    }
+    const double sample_time = sample_time_of(time, num_samples);
+    unsigned char* steps = xmalloc(num_samples);
+    bool is_any_lost = false;
+    steps[0] = 1;
+    for (size_t t = 1; t < num_samples; t++) {
+        steps[t] = steps_of((time[t] - time[t - 1]) / sample_time);
+        is_any_lost = is_any_lost || steps[t] > 1;
+    }
+    if (!is_any_lost) {
+        free(steps);
+        return NULL;
+    }
+    return steps;
+}
