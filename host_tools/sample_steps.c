@@ -2,11 +2,12 @@
 
 #include "model.h"
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 /// After more sample times than this nobody knows by what way the input came.
 static const double most_steps = 8;
+/// Of the samples there are, the part that may be lost: more are no loss, the record has another rate there.
+static const double most_lost = 0.25;
 /// How far beside a multiple of the sample time a step may be.
 static const double tolerance = 0.1;
 
@@ -47,13 +48,13 @@ unsigned char* sample_steps_new(const double* time, size_t num_samples)
     }
     const double sample_time = sample_time_of(time, num_samples);
     unsigned char* steps = xmalloc(num_samples);
-    bool is_any_lost = false;
+    size_t lost = 0;
     steps[0] = 1;
     for (size_t t = 1; t < num_samples; t++) {
         steps[t] = steps_of((time[t] - time[t - 1]) / sample_time);
-        is_any_lost = is_any_lost || steps[t] > 1;
+        lost += steps[t] - 1U;
     }
-    if (!is_any_lost) {
+    if (lost == 0 || (double)lost > most_lost * (double)num_samples) {
         free(steps);
         return NULL;
     }

@@ -8,7 +8,7 @@
 double sample_time_of(const double* time, size_t num_samples);
 /// steps[num_samples], owned: how many sample times lie between a sample and the one before, where up to
 /// seven in a row are lost; 1 where none is, after a longer pause, and for times that are no multiples.
-/// NULL: every step is 1, or there is no time.
+/// NULL: every step is 1, there is no time, or more than a quarter would be lost, which is another rate.
 unsigned char* sample_steps_new(const double* time, size_t num_samples);
 
 #endif

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unity.h>
 
-enum { WHOLE = 400, RAMP = 25, SHORT = 12 };
+enum { WHOLE = 400, RAMP = 25 };
 
 static const double sample_time = 0.02;
 static char path[] = "made.csv";
@@ -168,6 +168,18 @@ static void test_times_that_are_no_multiples_stay(void)
     check_same();
 }
 
+/// The second half at every fourth sample: three "lost" for five that are there.
+static bool another_rate(size_t t)
+{
+    return t > WHOLE / 2 && t % 4 != 0;
+}
+
+static void test_another_rate_is_no_loss(void)
+{
+    lose(triangle, another_rate);
+    check_same();
+}
+
 static void test_a_record_without_times_stays(void)
 {
     lose(triangle, turns);
@@ -199,11 +211,12 @@ static void test_a_short_record_has_no_courses(void)
     record.num_samples = 2;
     record.time[1] = 5 * sample_time;
     check_same();
-    record.num_samples = 3;
-    record.time[2] = 6 * sample_time;
-    record.time[1] = sample_time;
+    record.num_samples = 5;
+    for (size_t t = 1; t < record.num_samples; t++) {
+        record.time[t] = record.time[t - 1] + sample_time * (t == 2 ? 2 : 1);
+    }
     record_fill(&record, &carried);
-    TEST_ASSERT_TRUE(record.num_samples < SHORT);
+    TEST_ASSERT_EQUAL(6, record.num_samples);
     for (size_t t = 0; t < record.num_samples; t++) {
         TEST_ASSERT_TRUE(isfinite(record.input[t]));
     }
@@ -220,6 +233,7 @@ int main(void)
     RUN_TEST(test_nothing_lost_nothing_added);
     RUN_TEST(test_pauses_stay);
     RUN_TEST(test_times_that_are_no_multiples_stay);
+    RUN_TEST(test_another_rate_is_no_loss);
     RUN_TEST(test_a_record_without_times_stays);
     RUN_TEST(test_noise_is_not_carried_away);
     RUN_TEST(test_a_short_record_has_no_courses);
