@@ -8,6 +8,7 @@
 #include "diagnose_trial.h"
 #include "model_file.h"
 #include "output_file.h"
+#include "record_fill.h"
 #include "reference.h"
 #include "report_plot.h"
 #include <cblas.h>
@@ -84,6 +85,7 @@ static outcome_t calibrate(const options_t* given, const model_t* model, record_
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
+    record_fill(record);
     options->calibration = record;
     options->calibration_rmse = chain_misfit(model, options->start, record, &options->calibration_noise);
     return OUTCOME_OK;

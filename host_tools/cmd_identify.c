@@ -1,6 +1,7 @@
 #include "command.h"
 #include "identify.h"
 #include "model_file.h"
+#include "record_fill.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,8 +225,9 @@ static outcome_t run(const options_t* given, const char* path)
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
+    record_fill(&record);
     identify_result_t result;
-    outcome = identify(record.path, record.input, record.output, record.num_samples, &options, &result);
+    outcome = identify(&record, &options, &result);
     if (outcome == OUTCOME_OK) {
         outcome = finish(given, record.path, &result);
     }

@@ -31,7 +31,7 @@ typedef struct {
     const record_t* record;
     scope_t scope;
     effect_run_t whole; ///< over the record
-    thinned_t thinned;
+    record_t thinned;
     effect_run_t run; ///< over what is judged
     body_t body;
     loop_middle_t* body_middle; ///< or NULL, where the model's plays are all there is
@@ -225,13 +225,13 @@ static void describe_gap(const work_t* w, diagnosis_t* d)
 static void fit_on_whole(const work_t* w, const cause_t* verdict, const hypothesis_t* found)
 {
     const nuisance_t nothing = {0};
-    thinned_t fitted = record_thin(w->record, most_fitted, w->scope.first_judged);
-    effect_run_t run = effect_run_new(w->gap.model, &fitted.record);
+    record_t fitted = record_thin(w->record, most_fitted, w->scope.first_judged);
+    effect_run_t run = effect_run_new(w->gap.model, &fitted);
     run.fast = w->run.fast;
     run.body = w->run.body;
     run.everett = w->run.everett;
     run.body_middle = w->run.body_middle;
-    gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.record.output, fitted.carried, &nothing,
+    gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.output, fitted.carried, &nothing,
                         w->gap.filter[0].variance);
     gap.dead_zone = w->gap.dead_zone;
     hypothesis_t* hypothesis = own(w, verdict);
@@ -241,7 +241,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict, const hypothes
     memcpy(hypothesis->use, searched.use, searched.num_uses * sizeof *searched.use);
     gap_free(&gap);
     effect_run_free(&run);
-    thinned_free(&fitted);
+    record_free(&fitted);
 }
 
 static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
@@ -251,14 +251,14 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
     w->whole = effect_run_new(model, w->record);
     w->whole.fast = fast;
     w->thinned = record_thin(w->record, most_judged, w->scope.first_judged);
-    w->run = effect_run_new(model, &w->thinned.record);
+    w->run = effect_run_new(model, &w->thinned);
     w->run.fast = fast;
     w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};
     // A body cannot be learned from loops whose past is unknown, nor for a range that they have none of.
     if (options->calibration != NULL && scope_first_fitted(model) == 0 && scope_is_within(&w->scope)) {
         w->body = body_find(model, options->start, options->calibration, options->calibration_rmse,
-                            options->calibration_noise, scope_is_known(&w->scope), &w->thinned.record);
+                            options->calibration_noise, scope_is_known(&w->scope), &w->thinned);
         w->run.body = w->body.stands_in ? &w->body.stand_in : NULL;
         w->run.everett = w->body.has_everett ? &w->body.everett : NULL;
     }
@@ -266,8 +266,7 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
         w->body_middle = effect_run_find_middle(&w->run, model, options->start);
         w->run.body_middle = w->body_middle;
     }
-    w->gap = gap_new(model, &w->run, options->start, w->thinned.record.output, w->thinned.carried,
-                     &w->body.nuisance,
+    w->gap = gap_new(model, &w->run, options->start, w->thinned.output, w->thinned.carried, &w->body.nuisance,
                      fmax(w->body.misfit * w->body.misfit, DBL_MIN) *
                          fmax((double)w->run.num_samples / independent_pieces, 1));
     shrink_block_errors(&w->gap, NULL, 0, w->plain_error);
@@ -389,7 +388,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     body_free(&w.body);
     loop_middle_free(w.body_middle);
     effect_run_free(&w.run);
-    thinned_free(&w.thinned);
+    record_free(&w.thinned);
     effect_run_free(&w.whole);
     fast_plays_free(fast);
     return isfinite(d->rmse)

@@ -107,7 +107,8 @@ static double errors_of(const body_t* body, const model_t* model, start_t start,
         residual[t] = calibration->output[t] - residual[t];
     }
     const double size = body->misfit / body->noise;
-    const double errors = size * size * series_correlation(residual, n);
+    const size_t measured = series_drop_carried(calibration->carried, residual, n);
+    const double errors = size * size * series_correlation(residual, measured);
     free(residual);
     return errors;
 }
@@ -118,8 +119,7 @@ static void try_duhem(body_t* body, const model_t* model, start_t start, const r
 {
     double* precision = xmalloc((size_t)DUHEM_FREE * DUHEM_FREE * sizeof *precision);
     double left = HUGE_VAL;
-    const stand_in_t found = {.duhem = duhem_fit(model, start, calibration->input, calibration->output,
-                                                 calibration->num_samples, body->noise, &left, precision)};
+    const stand_in_t found = {.duhem = duhem_fit(model, start, calibration, body->noise, &left, precision)};
     if (left * left < clearly_less * body->misfit * body->misfit && is_near(model, start, &found, record)) {
         nuisance_free(&body->nuisance);
         body->has_everett = false;
@@ -160,8 +160,7 @@ static void add_everett(body_t* body, const model_t* model, const record_t* cali
     double* model_output = xmalloc(record->num_samples * sizeof *model_output);
     const double beyond_noise = body->misfit * body->misfit - body->noise * body->noise;
     double left;
-    body->everett = everett_fit(model, calibration->input, calibration->output, calibration->num_samples,
-                                few * sqrt(beyond_noise), precision, &left);
+    body->everett = everett_fit(model, calibration, few * sqrt(beyond_noise), precision, &left);
     body->has_everett = true;
     body->misfit = fmin(left, body->misfit);
     body->doubt = doubt_of_tables;
@@ -186,11 +185,11 @@ static bool explains_bench(const body_t* body, double left)
 static void try_elements(body_t* body, const model_t* model, double model_misfit, const record_t* calibration,
                          const record_t* record)
 {
-    thinned_t thinned = record_thin(calibration, most_calibrated, 0);
-    const element_record_t fitted = {.input = thinned.record.input,
-                                     .output = thinned.record.output,
+    record_t thinned = record_thin(calibration, most_calibrated, 0);
+    const element_record_t fitted = {.input = thinned.input,
+                                     .output = thinned.output,
                                      .carried = thinned.carried,
-                                     .num_samples = thinned.record.num_samples,
+                                     .num_samples = thinned.num_samples,
                                      .input_min = model->input_min,
                                      .input_max = model->input_max,
                                      .noise = body->noise};
@@ -215,10 +214,10 @@ static void try_elements(body_t* body, const model_t* model, double model_misfit
         const double missed = fmax(body->misfit * body->misfit - body->noise * body->noise, 0);
         body->doubt = missed / (model_misfit * model_misfit - body->misfit * body->misfit) +
                       doubt_of_element[best.element.kind];
-        const double errors = errors_of(body, model, START_NEGATIVE_SATURATION, &thinned.record);
+        const double errors = errors_of(body, model, START_NEGATIVE_SATURATION, &thinned);
         body->nuisance = element_nuisance(body, &fitted, errors, record);
     }
-    thinned_free(&thinned);
+    record_free(&thinned);
 }
 
 body_t body_find(const model_t* model, start_t start, const record_t* calibration, double model_misfit,

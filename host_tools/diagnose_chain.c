@@ -3,6 +3,7 @@
 #include "input_file.h"
 #include "model_file.h"
 #include "reference.h"
+#include "series.h"
 #include "white_noise.h"
 #include <math.h>
 #include <stdlib.h>
@@ -90,16 +91,18 @@ void chain_free(chain_t* chain)
 
 double chain_misfit(const model_t* model, start_t start, const record_t* calibration, double* noise)
 {
-    const size_t n = calibration->num_samples;
-    double* difference = xmalloc(n * sizeof *difference);
-    reference_run(model, start, calibration->input, n, difference);
+    double* difference = xmalloc(calibration->num_samples * sizeof *difference);
+    reference_run(model, start, calibration->input, calibration->num_samples, difference);
+    for (size_t t = 0; t < calibration->num_samples; t++) {
+        difference[t] = calibration->output[t] - difference[t];
+    }
+    const size_t n = series_drop_carried(calibration->carried, difference, calibration->num_samples);
     // What identify left out, the memory at the start not being known, is no misfit of the model.
     const size_t given = scope_first_fitted(model);
     const size_t first = given < n ? given : 0;
     double sum = 0;
-    for (size_t t = 0; t < n; t++) {
-        difference[t] = calibration->output[t] - difference[t];
-        sum += t >= first ? difference[t] * difference[t] : 0;
+    for (size_t t = first; t < n; t++) {
+        sum += difference[t] * difference[t];
     }
     *noise = white_noise(difference, n);
     free(difference);

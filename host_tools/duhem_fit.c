@@ -19,7 +19,8 @@ static const double trust_in_model = 0.01;
 typedef struct {
     const double* input;
     const double* output;
-    double* modelled; ///< the model's own output
+    const bool* carried; ///< [num_samples] or NULL: no error is counted there
+    double* modelled;    ///< the model's own output
     size_t num_samples;
     size_t stride; ///< errors are counted at every stride-th sample
     start_t start;
@@ -29,6 +30,20 @@ typedef struct {
 static size_t rows_of(const series_t* series)
 {
     return (series->num_samples + series->stride - 1) / series->stride;
+}
+
+static bool counts(const series_t* series, size_t sample)
+{
+    return sample % series->stride == 0 && (series->carried == NULL || !series->carried[sample]);
+}
+
+static size_t count_errors(const series_t* series)
+{
+    size_t count = 0;
+    for (size_t t = 0; t < series->num_samples; t++) {
+        count += counts(series, t);
+    }
+    return count;
 }
 
 typedef struct {
@@ -59,15 +74,17 @@ static double follow(const fit_t* f, const series_t* series, const duhem_t* d, d
     for (size_t t = 0; t < series->num_samples; t++) {
         guide[0] = guide[1];
         guide[1] = series->modelled[t];
-        const double error = scale * (series->output[t] - duhem_step(&s, series->input[t]));
+        const double output = duhem_step(&s, series->input[t]);
         if (t % series->stride != 0) {
             continue;
         }
+        const double weight = counts(series, t) ? scale : 0;
+        const double error = weight * (series->output[t] - output);
         const size_t row = t / series->stride;
         residual[row] = error;
         sum += error * error;
         for (size_t k = 0; jacobian != NULL && k < DUHEM_FREE; k++) {
-            jacobian[row * DUHEM_FREE + k] = scale * derivative[k];
+            jacobian[row * DUHEM_FREE + k] = weight * derivative[k];
         }
     }
     return sum;
@@ -204,20 +221,22 @@ static duhem_t fit(fit_t* f)
     return d;
 }
 
-duhem_t duhem_fit(const model_t* model, start_t start, const double* input, const double* output,
-                  size_t num_samples, double noise, double* rmse, double* precision)
+duhem_t duhem_fit(const model_t* model, start_t start, const record_t* bench, double noise, double* rmse,
+                  double* precision)
 {
+    const size_t num_samples = bench->num_samples;
     double* elsewhere = xmalloc(ELSEWHERE * sizeof *elsewhere);
     double* modelled = xmalloc((num_samples + ELSEWHERE) * sizeof *modelled);
     go_everywhere(model, elsewhere, ELSEWHERE);
-    reference_run(model, start, input, num_samples, modelled);
+    reference_run(model, start, bench->input, num_samples, modelled);
     reference_run(model, START_NEGATIVE_SATURATION, elsewhere, ELSEWHERE, modelled + num_samples);
     double misfit = noise * noise;
     for (size_t t = 0; t < num_samples; t++) {
-        misfit += (output[t] - modelled[t]) * (output[t] - modelled[t]) / (double)num_samples;
+        misfit += (bench->output[t] - modelled[t]) * (bench->output[t] - modelled[t]) / (double)num_samples;
     }
-    const series_t record = {.input = input,
-                             .output = output,
+    const series_t record = {.input = bench->input,
+                             .output = bench->output,
+                             .carried = bench->carried,
                              .modelled = modelled,
                              .num_samples = num_samples,
                              .stride = num_samples / MOST_ROWS + 1,
@@ -238,7 +257,7 @@ duhem_t duhem_fit(const model_t* model, start_t start, const double* input, cons
     duhem_t d = fit(&f);
     double right[DUHEM_FREE];
     linearise(&f, &d, precision, right);
-    *rmse = noise * sqrt(follow(&f, &record, &d, f.residual, NULL) / (double)rows_of(&record));
+    *rmse = noise * sqrt(follow(&f, &record, &d, f.residual, NULL) / (double)count_errors(&record));
     free(f.residual);
     free(f.jacobian);
     free(elsewhere);

@@ -44,20 +44,23 @@ static void add_rows(equations_t* e, const double* rows, const double* wanted, s
 }
 
 /// fold[FOLDS]: one stretch each.
-static void set_equations(equations_t* fold, const model_t* model, const double* input,
-                          const double* model_output, const double* difference, size_t num_samples)
+static void set_equations(equations_t* fold, const model_t* model, const record_t* record,
+                          const double* model_output, const double* difference)
 {
     double* rows = xmalloc((size_t)ROWS * EVERETT_FREE * sizeof *rows);
+    double wanted[ROWS];
     everett_past_t past = everett_start(model);
     size_t block = 0;
-    size_t begin = 0;
-    for (size_t t = 0; t < num_samples; t++) {
-        everett_step(&past, input[t], model_output[t], &rows[(t - begin) * EVERETT_FREE]);
-        const size_t next = (t + 1) * FOLDS / num_samples;
-        if (next != block || t + 1 - begin == ROWS) {
-            add_rows(&fold[block], rows, &difference[begin], t + 1 - begin);
+    size_t count = 0;
+    for (size_t t = 0; t < record->num_samples; t++) {
+        everett_step(&past, record->input[t], model_output[t], &rows[count * EVERETT_FREE]);
+        wanted[count] = difference[t];
+        count += !record_is_carried(record, t);
+        const size_t next = (t + 1) * FOLDS / record->num_samples;
+        if (next != block || count == ROWS) {
+            add_rows(&fold[block], rows, wanted, count);
             block = next;
-            begin = t + 1;
+            count = 0;
         }
     }
     free(rows);
@@ -179,26 +182,29 @@ static double held_out_error(const equations_t* fold, const equations_t* all, co
 }
 
 /// Of what the coefficients leave, how many neighbouring samples count as one.
-static double correlation_left(const everett_t* everett, const double* input, const double* model_output,
-                               const double* difference, size_t num_samples)
+static double correlation_left(const everett_t* everett, const record_t* record, const double* model_output,
+                               const double* difference)
 {
+    const size_t num_samples = record->num_samples;
     double* residual = xmalloc(num_samples * sizeof *residual);
     for (size_t t = 0; t < num_samples; t++) {
         residual[t] = -difference[t];
     }
-    everett_add(everett, NULL, 0, input, model_output, num_samples, residual);
-    const double correlation = series_correlation(residual, num_samples);
+    everett_add(everett, NULL, 0, record->input, model_output, num_samples, residual);
+    const size_t measured = series_drop_carried(record->carried, residual, num_samples);
+    const double correlation = series_correlation(residual, measured);
     free(residual);
     return correlation;
 }
 
 /// What the record has beyond the model, about its mean, which is returned.
-static double find_difference(const model_t* model, const double* input, const double* output,
-                              size_t num_samples, double* model_output, double* difference)
+static double find_difference(const model_t* model, const record_t* record, double* model_output,
+                              double* difference)
 {
-    reference_run(model, START_NEGATIVE_SATURATION, input, num_samples, model_output);
+    const size_t num_samples = record->num_samples;
+    reference_run(model, START_NEGATIVE_SATURATION, record->input, num_samples, model_output);
     for (size_t t = 0; t < num_samples; t++) {
-        difference[t] = output[t] - model_output[t];
+        difference[t] = record->output[t] - model_output[t];
     }
     const double mean = series_mean(difference, num_samples);
     for (size_t t = 0; t < num_samples; t++) {
@@ -207,25 +213,26 @@ static double find_difference(const model_t* model, const double* input, const d
     return mean;
 }
 
-everett_t everett_fit(const model_t* model, const double* input, const double* output, size_t num_samples,
-                      double largest, double* precision, double* left)
+everett_t everett_fit(const model_t* model, const record_t* record, double largest, double* precision,
+                      double* left)
 {
+    const size_t num_samples = record->num_samples;
     equations_t* fold = xcalloc(FOLDS + 2, sizeof *fold);
     equations_t* all = &fold[FOLDS];
     equations_t* independent = &fold[FOLDS + 1];
     double* penalty = xmalloc(SIZE * sizeof *penalty);
     double* model_output = xmalloc(2 * num_samples * sizeof *model_output);
     double* difference = model_output + num_samples;
-    const double mean = find_difference(model, input, output, num_samples, model_output, difference);
+    const double mean = find_difference(model, record, model_output, difference);
     set_penalty(penalty);
-    set_equations(fold, model, input, model_output, difference, num_samples);
+    set_equations(fold, model, record, model_output, difference);
     for (size_t k = 0; k < FOLDS; k++) {
         add_to(all, &fold[k], 1);
     }
     everett_t everett = everett_none(model);
     (void)solve(all, penalty, most_probable_strength(all, penalty), everett.value);
     // Coloured noise is not to be followed.
-    add_to(independent, all, 1 / correlation_left(&everett, input, model_output, difference, num_samples));
+    add_to(independent, all, 1 / correlation_left(&everett, record, model_output, difference));
     const double strength = most_probable_strength(independent, penalty);
     (void)solve(independent, penalty, strength, everett.value);
     const double error = held_out_error(fold, all, penalty, strength);

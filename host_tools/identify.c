@@ -4,6 +4,7 @@
 #include "identify_samples.h"
 #include "identify_start.h"
 #include "reference.h"
+#include "series.h"
 #include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
@@ -31,10 +32,7 @@ static const double smoothness = 1e-3;
 static const double clockwise_sense = 0.002;
 
 typedef struct {
-    const char* path;
-    const double* input;
-    const double* output;
-    size_t num_samples;
+    const record_t* record;
     const identify_options_t* options;
     double centre, half_range; ///< of the model's input range
     double output_range;
@@ -66,24 +64,37 @@ static void range_of(const double* values, size_t count, double* low, double* hi
     }
 }
 
+/// What was put back may lie beyond what was measured.
+static void measured_input_range(const record_t* record, double* low, double* high)
+{
+    *low = HUGE_VAL;
+    *high = -HUGE_VAL;
+    for (size_t t = 0; t < record->num_samples; t++) {
+        if (!record_is_carried(record, t)) {
+            *low = fmin(*low, record->input[t]);
+            *high = fmax(*high, record->input[t]);
+        }
+    }
+}
+
 static outcome_t check_record(problem_t* p)
 {
-    const location_t where = {.file = p->path};
+    const location_t where = {.file = p->record->path};
     const size_t least = LEAST_SAMPLES;
-    if (p->num_samples < least) {
+    if (p->record->num_samples < least) {
         return message_error(OUTCOME_BAD_INPUT, where,
                              "%zu samples are too few to identify a model, expected at least %zu",
-                             p->num_samples, least);
+                             p->record->num_samples, least);
     }
     double low;
     double high;
-    range_of(p->output, p->num_samples, &low, &high);
+    range_of(p->record->output, p->record->num_samples, &low, &high);
     p->output_range = high - low;
     if (!(p->output_range > 0)) {
         return message_error(OUTCOME_BAD_INPUT, where,
                              "the output is %g throughout, expected one that answers the input", low);
     }
-    range_of(p->input, p->num_samples, &low, &high);
+    measured_input_range(p->record, &low, &high);
     if (!(high > low)) {
         return message_error(OUTCOME_BAD_INPUT, where, "the input is %g throughout, expected one that moves",
                              low);
@@ -331,47 +342,63 @@ static model_t build_model(const problem_t* p, const fit_t* fit)
 
 /// Mean of y, weighted by du: negative for a loop whose ascending branch lies below the descending one, as
 /// any play's does. Half the loop's mean width, in output units.
-static double loop_sense(const problem_t* p, size_t first)
+static double loop_sense(const record_t* record, size_t first)
 {
+    const double* input = record->input;
+    const double* output = record->output;
+    const size_t last = record->num_samples - 1;
     double area = 0;
     double travel = 0;
-    const double closing = p->input[first] - p->input[p->num_samples - 1];
-    for (size_t t = first + 1; t < p->num_samples; t++) {
-        const double step = p->input[t] - p->input[t - 1];
-        area += 0.5 * (p->output[t] + p->output[t - 1]) * step;
+    const double closing = input[first] - input[last];
+    for (size_t t = first + 1; t <= last; t++) {
+        const double step = input[t] - input[t - 1];
+        area += 0.5 * (output[t] + output[t - 1]) * step;
         travel += fabs(step);
     }
     // The way back along the straight chord closes the path, so that an offset of y cancels.
-    area += 0.5 * (p->output[first] + p->output[p->num_samples - 1]) * closing;
+    area += 0.5 * (output[first] + output[last]) * closing;
     return area / (travel + fabs(closing));
 }
 
-/// Figures of the finished model over the whole record.
-static void measure(const problem_t* p, identify_result_t* result)
+/// Of the record's first `count` samples.
+static size_t count_measured(const record_t* record, size_t count)
 {
-    double* predicted = xmalloc(p->num_samples * sizeof *predicted);
-    const start_t start = result->model.initial != NULL ? START_MODEL : result->start;
-    reference_run(&result->model, start, p->input, p->num_samples, predicted);
-    double sum = 0;
-    for (size_t t = result->first_fitted; t < p->num_samples; t++) {
-        const double error = predicted[t] - p->output[t];
-        sum += error * error;
-        result->max_error = fmax(result->max_error, fabs(error));
+    size_t measured = 0;
+    for (size_t t = 0; t < count; t++) {
+        measured += !record_is_carried(record, t);
     }
-    free(predicted);
-    result->rmse = sqrt(sum / (double)(p->num_samples - result->first_fitted));
+    return measured;
+}
+
+/// Figures of the finished model over the samples of the record from `first` on.
+static void measure(const problem_t* p, size_t first, identify_result_t* result)
+{
+    const record_t* record = p->record;
+    double* error = xmalloc(record->num_samples * sizeof *error);
+    const start_t start = result->model.initial != NULL ? START_MODEL : result->start;
+    reference_run(&result->model, start, record->input, record->num_samples, error);
+    for (size_t t = 0; t < record->num_samples; t++) {
+        error[t] -= record->output[t];
+    }
+    result->num_samples = series_drop_carried(record->carried, error, record->num_samples);
+    result->first_fitted = count_measured(record, first);
+    double sum = 0;
+    for (size_t t = result->first_fitted; t < result->num_samples; t++) {
+        sum += error[t] * error[t];
+        result->max_error = fmax(result->max_error, fabs(error[t]));
+    }
+    free(error);
+    result->rmse = sqrt(sum / (double)(result->num_samples - result->first_fitted));
     result->relative = result->rmse / p->output_range;
     result->output_range = p->output_range;
-    result->num_samples = p->num_samples;
-    result->clockwise = loop_sense(p, result->first_fitted) > clockwise_sense * p->output_range;
-    result->monotone_floor = monotone_floor(p->input, p->output, p->num_samples, result->first_fitted);
+    result->clockwise = loop_sense(record, first) > clockwise_sense * p->output_range;
+    result->monotone_floor = monotone_floor(record->input, record->output, record->num_samples, first);
 }
 
 /// Refines the chosen fit on more of the record and settles what to do with its first stretch.
 static outcome_t finish(problem_t* p, fit_t* fit, identify_result_t* result)
 {
-    samples_t final =
-        samples_new(p->input, p->output, p->num_samples, p->centre, p->half_range, FINAL_SAMPLES);
+    samples_t final = samples_new(p->record, p->centre, p->half_range, FINAL_SAMPLES);
     fit_samples_t samples = fit_samples_of(&final, &p->plan);
     samples_use_from(&final, p->plan.leave_out ? final.wiped : 0);
     outcome_t outcome = fit_search(fit, &samples, FINAL_EVALUATIONS);
@@ -382,7 +409,6 @@ static outcome_t finish(problem_t* p, fit_t* fit, identify_result_t* result)
     }
     if (outcome == OUTCOME_OK) {
         result->model = build_model(p, fit);
-        result->first_fitted = p->plan.leave_out ? final.index[final.wiped] : 0;
         result->memory = p->plan.leave_out              ? MEMORY_LEFT_OUT
                          : p->plan.start == START_MODEL ? MEMORY_ESTIMATED
                                                         : MEMORY_ASSUMED;
@@ -393,9 +419,9 @@ static outcome_t finish(problem_t* p, fit_t* fit, identify_result_t* result)
             result->num_undetermined += !fit->moved[j];
         }
         if (p->plan.start == START_MODEL) {
-            start_write_initial(&p->plan, &result->model, p->input[0]);
+            start_write_initial(&p->plan, &result->model, p->record->input[0]);
         }
-        measure(p, result);
+        measure(p, p->plan.leave_out ? final.index[final.wiped] : 0, result);
     }
     samples_free(&final);
     return outcome;
@@ -425,19 +451,17 @@ static outcome_t plan_start(problem_t* p)
     return outcome;
 }
 
-outcome_t identify(const char* path, const double* input, const double* output, size_t num_samples,
-                   const identify_options_t* options, identify_result_t* result)
+outcome_t identify(const record_t* record, const identify_options_t* options, identify_result_t* result)
 {
     *result = (identify_result_t){0};
-    problem_t p = {
-        .path = path, .input = input, .output = output, .num_samples = num_samples, .options = options};
+    problem_t p = {.record = record, .options = options};
     outcome_t outcome = check_record(&p);
     if (outcome != OUTCOME_OK) {
         return outcome;
     }
     // Small matrices: threads cost more than they gain, and one thread gives the same bits each time.
     openblas_set_num_threads(1);
-    p.search = samples_new(input, output, num_samples, p.centre, p.half_range, SEARCH_SAMPLES);
+    p.search = samples_new(record, p.centre, p.half_range, SEARCH_SAMPLES);
     place_knots(&p);
     families_t families = {0};
     size_t chosen = 0;
@@ -452,7 +476,7 @@ outcome_t identify(const char* path, const double* input, const double* output, 
         outcome = finish(&p, &families.fit[chosen], result);
     }
     if (outcome == OUTCOME_NUMERICAL) {
-        message_error(outcome, (location_t){.file = path},
+        message_error(outcome, (location_t){.file = record->path},
                       "the least-squares fit did not settle, expected a record with finite, distinct values");
     }
     families_free(&families);

@@ -4,6 +4,7 @@
 
 #include "message.h"
 #include "model.h"
+#include "record.h"
 
 /// Which envelopes may be used; auto tries all and keeps the simplest that is not clearly worse.
 typedef enum { IDENTIFY_AUTO, IDENTIFY_LINEAR, IDENTIFY_TANH, IDENTIFY_TABLE } identify_envelope_t;
@@ -32,8 +33,8 @@ enum { IDENTIFY_MAX_CANDIDATES = 8, IDENTIFY_MAX_PLAYS = 1000 };
 
 typedef struct {
     model_t model;
-    size_t num_samples;  ///< of the record
-    size_t first_fitted; ///< first sample that entered the fit
+    size_t num_samples;  ///< of the record that were measured
+    size_t first_fitted; ///< the first of them that entered the fit
     double rmse;         ///< of the model over the fitted samples, output units
     double relative;     ///< rmse over the output's range
     double max_error;    ///< largest |error| over the fitted samples
@@ -48,11 +49,10 @@ typedef struct {
     identify_candidate_t candidate[IDENTIFY_MAX_CANDIDATES];
 } identify_result_t;
 
-/// Fits input[num_samples] -> output[num_samples], both finite. path: the record's, for messages.
+/// Fits the record's output to its input, both finite; what is carried moves the plays and is not fitted.
 /// OUTCOME_BAD_INPUT: too short, constant input or output, or outside a given range. OUTCOME_NUMERICAL: the
 /// least squares did not settle. Both reported; *result is then empty.
-outcome_t identify(const char* path, const double* input, const double* output, size_t num_samples,
-                   const identify_options_t* options, identify_result_t* result);
+outcome_t identify(const record_t* record, const identify_options_t* options, identify_result_t* result);
 void identify_result_free(identify_result_t* result);
 
 /// Names for reports.

@@ -9,20 +9,27 @@
 /// largest moving one can tell the difference, and those hardly move.
 static const double end_tolerance = 0.02;
 
-static void append(samples_t* samples, const double* input, const double* output, size_t t, double centre,
-                   double half_range)
+/// Of a record, on the scale of the model's input range.
+typedef struct {
+    const record_t* record;
+    double centre, half_range;
+} scaled_t;
+
+static void append(samples_t* samples, const scaled_t* scaled, size_t t)
 {
     const size_t i = samples->num_samples++;
-    samples->u[i] = (input[t] - centre) / half_range;
-    samples->y[i] = output[t];
-    samples->used[i] = true;
+    // Only a turning point that was put back can lie outside.
+    samples->u[i] = fmin(fmax((scaled->record->input[t] - scaled->centre) / scaled->half_range, -1), 1);
+    samples->y[i] = scaled->record->output[t];
+    samples->measured[i] = !record_is_carried(scaled->record, t);
+    samples->used[i] = samples->measured[i];
     samples->index[i] = t;
 }
 
 /// Appends the block's samples of least and largest input in order of time.
-static void append_extremes(samples_t* samples, const double* input, const double* output, size_t from,
-                            size_t to, double centre, double half_range)
+static void append_extremes(samples_t* samples, const scaled_t* scaled, size_t from, size_t to)
 {
+    const double* input = scaled->record->input;
     size_t least = from;
     size_t largest = from;
     for (size_t t = from; t < to; t++) {
@@ -31,9 +38,9 @@ static void append_extremes(samples_t* samples, const double* input, const doubl
     }
     const size_t early = least < largest ? least : largest;
     const size_t late = least < largest ? largest : least;
-    append(samples, input, output, early, centre, half_range);
+    append(samples, scaled, early);
     if (late > early) {
-        append(samples, input, output, late, centre, half_range);
+        append(samples, scaled, late);
     }
 }
 
@@ -58,19 +65,21 @@ static size_t first_wiped(const samples_t* samples)
     return 0;
 }
 
-samples_t samples_new(const double* input, const double* output, size_t num_samples, double centre,
-                      double half_range, size_t max_samples)
+samples_t samples_new(const record_t* record, double centre, double half_range, size_t max_samples)
 {
+    const scaled_t scaled = {record, centre, half_range};
+    const size_t num_samples = record->num_samples;
     const size_t block = num_samples <= max_samples ? 1 : (2 * num_samples + max_samples - 1) / max_samples;
     const size_t most = block == 1 ? num_samples : 2 * (num_samples / block + 1);
     samples_t samples = {0};
     samples.u = xmalloc(most * sizeof *samples.u);
     samples.y = xmalloc(most * sizeof *samples.y);
+    samples.measured = xmalloc(most * sizeof *samples.measured);
     samples.used = xmalloc(most * sizeof *samples.used);
     samples.index = xmalloc(most * sizeof *samples.index);
     for (size_t from = 0; from < num_samples; from += block) {
         const size_t to = from + block < num_samples ? from + block : num_samples;
-        append_extremes(&samples, input, output, from, to, centre, half_range);
+        append_extremes(&samples, &scaled, from, to);
     }
     samples.wiped = first_wiped(&samples);
     return samples;
@@ -80,6 +89,7 @@ void samples_free(samples_t* samples)
 {
     free(samples->u);
     free(samples->y);
+    free(samples->measured);
     free(samples->used);
     free(samples->index);
     *samples = (samples_t){0};
@@ -88,7 +98,7 @@ void samples_free(samples_t* samples)
 void samples_use_from(samples_t* samples, size_t first)
 {
     for (size_t i = 0; i < samples->num_samples; i++) {
-        samples->used[i] = i >= first;
+        samples->used[i] = i >= first && samples->measured[i];
     }
 }
 

@@ -50,11 +50,15 @@ static double stretch_rmse(const start_plan_t* plan, const fit_t* fit, const sam
     double* output = xmalloc(samples->num_samples * sizeof *output);
     fit_output(fit, &run, output);
     double sum = 0;
+    double measured = 0;
     for (size_t i = 0; i < samples->wiped; i++) {
-        sum += (output[i] - samples->y[i]) * (output[i] - samples->y[i]);
+        if (samples->measured[i]) {
+            sum += (output[i] - samples->y[i]) * (output[i] - samples->y[i]);
+            measured += 1;
+        }
     }
     free(output);
-    return sqrt(sum / (double)samples->wiped);
+    return sqrt(sum / fmax(measured, 1));
 }
 
 void start_try_assumptions(start_plan_t* plan, fit_t* fit, samples_t* samples)
@@ -104,7 +108,7 @@ static int estimate_residual(void* context, int m, int n, const double* node, do
     const fit_samples_t run = samples_from(e->plan, START_MODEL, e->samples);
     fit_output(e->fit, &run, e->output);
     for (size_t i = 0; i < e->samples->num_samples; i++) {
-        residual[i] = e->output[i] - e->samples->y[i];
+        residual[i] = e->samples->measured[i] ? e->output[i] - e->samples->y[i] : 0;
     }
     return 0;
 }

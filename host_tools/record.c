@@ -366,5 +366,11 @@ void record_free(record_t* record)
         free(record->auxiliary[i].value);
     }
     free(record->auxiliary);
+    free(record->carried);
     *record = (record_t){0};
+}
+
+bool record_is_carried(const record_t* record, size_t sample)
+{
+    return record->carried != NULL && record->carried[sample];
 }

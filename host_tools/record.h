@@ -19,6 +19,7 @@ typedef struct {
     double* output; ///< NULL only when not required
     size_t num_auxiliary;
     column_t* auxiliary; ///< numeric columns beyond those three, in file order
+    bool* carried; ///< [num_samples] true: only there for the memory, not to be judged by; NULL: none is
 } record_t;
 
 typedef struct {
@@ -32,6 +33,7 @@ typedef struct {
 /// Reads a record; "-" is stdin. Errors carry line and column and OUTCOME_BAD_INPUT; *record is then empty.
 outcome_t record_read(const char* path, const record_options_t* options, record_t* record);
 void record_free(record_t* record);
+bool record_is_carried(const record_t* record, size_t sample);
 
 /// A column to write; integer: written as 0/1 rather than a real.
 typedef struct {

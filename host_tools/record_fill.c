@@ -83,7 +83,7 @@ static void fill_turns(double* input, const unsigned char* steps, size_t num_sam
     }
 }
 
-void record_fill(record_t* record, bool** carried)
+void record_fill(record_t* record)
 {
     const size_t n = record->num_samples;
     unsigned char* steps = sample_steps_new(record->time, n);
@@ -91,7 +91,7 @@ void record_fill(record_t* record, bool** carried)
         return;
     }
     const size_t num_filled = count_filled(steps, n);
-    fill_carried(carried, steps, n, num_filled);
+    fill_carried(&record->carried, steps, n, num_filled);
     fill_series(&record->time, steps, n, num_filled);
     fill_series(&record->input, steps, n, num_filled);
     fill_series(&record->output, steps, n, num_filled);

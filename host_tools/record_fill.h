@@ -3,12 +3,11 @@
 #define HYST_HOST_RECORD_FILL_H
 
 #include "record.h"
-#include <stdbool.h>
 
 /// Adds the lost samples of a record with times (sample_steps.h): times, columns and output on a straight
 /// line between their neighbours, and the input, too, but for a turning point that was lost by itself: it is
-/// where the courses before and behind it, each continued as a parabola, lead to. *carried, owned or NULL,
-/// grows with the record; what is added is carried (record_thin.h).
-void record_fill(record_t* record, bool** carried);
+/// where the courses before and behind it, each continued as a parabola, lead to. What is added is carried:
+/// its output was never measured.
+void record_fill(record_t* record);
 
 #endif

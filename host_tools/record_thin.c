@@ -121,37 +121,39 @@ static size_t count_kept(const choice_t* choice, size_t num_samples)
     return count;
 }
 
-thinned_t record_thin(const record_t* record, size_t most, size_t first_judged)
+/// Which of the kept samples are not to be judged by.
+static bool* kept_carried(const choice_t* choice, const record_t* record, size_t num_kept,
+                          size_t first_judged)
+{
+    bool* carried = xmalloc(num_kept * sizeof *carried);
+    for (size_t t = 0, k = 0; t < record->num_samples; t++) {
+        if (choice->fate[t] != LEFT_OUT) {
+            carried[k++] = choice->fate[t] == CARRIED || t < first_judged || record_is_carried(record, t);
+        }
+    }
+    return carried;
+}
+
+record_t record_thin(const record_t* record, size_t most, size_t first_judged)
 {
     const size_t n = record->num_samples;
     choice_t choice = {record->input, xcalloc(n, 1)};
-    thinned_t thinned = {0};
     if (n <= most) {
         memset(choice.fate, JUDGED, n);
     } else {
         choose(&choice, n, most);
     }
     const size_t num_kept = count_kept(&choice, n);
-    thinned.record = kept_record(&choice, record, num_kept);
-    if (thinned.record.time == NULL && num_kept < n) {
-        thinned.record.time = kept_numbers(&choice, n, num_kept);
+    record_t thinned = kept_record(&choice, record, num_kept);
+    if (thinned.time == NULL && num_kept < n) {
+        thinned.time = kept_numbers(&choice, n, num_kept);
     }
-    thinned.carried = num_kept < n || first_judged > 0 ? xmalloc(num_kept * sizeof *thinned.carried) : NULL;
-    for (size_t t = 0, k = 0; thinned.carried != NULL && t < n; t++) {
-        if (choice.fate[t] != LEFT_OUT) {
-            thinned.carried[k++] = choice.fate[t] == CARRIED || t < first_judged;
-        }
+    if (num_kept < n || first_judged > 0 || record->carried != NULL) {
+        thinned.carried = kept_carried(&choice, record, num_kept, first_judged);
     }
     free(choice.fate);
     if (num_kept == n) {
-        record_fill(&thinned.record, &thinned.carried);
+        record_fill(&thinned);
     }
     return thinned;
-}
-
-void thinned_free(thinned_t* thinned)
-{
-    record_free(&thinned->record);
-    free(thinned->carried);
-    *thinned = (thinned_t){0};
 }

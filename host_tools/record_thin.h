@@ -5,11 +5,6 @@
 
 #include "record.h"
 
-typedef struct {
-    record_t record; ///< owned
-    bool* carried;   ///< [num_samples] true: only there for the memory, not to be judged by; NULL: none is
-} thinned_t;
-
 /// record: with input and output. One of at most `most` samples (at least 1000) is copied as it is, and what
 /// a logger lost of it put back (record_fill.h). Of a longer one at most so many are kept, with times of 1 s
 /// a sample where it has none:
@@ -18,8 +13,7 @@ typedef struct {
 /// - before each of them cells, short ones next to it and longer ones further back, and of each cell the
 ///   samples of the least and the greatest input. So every turning point that a later move does not wipe out
 ///   is kept but for those within a cell, and a fading memory sees its recent past more finely.
-/// Samples before the record's first_judged are carried.
-thinned_t record_thin(const record_t* record, size_t most, size_t first_judged);
-void thinned_free(thinned_t* thinned);
+/// Samples before the record's first_judged are carried, and what is carried in it stays so.
+record_t record_thin(const record_t* record, size_t most, size_t first_judged);
 
 #endif

@@ -2,6 +2,17 @@
 
 #include <math.h>
 
+size_t series_drop_carried(const bool* carried, double* values, size_t count)
+{
+    size_t kept = 0;
+    for (size_t t = 0; t < count; t++) {
+        if (carried == NULL || !carried[t]) {
+            values[kept++] = values[t];
+        }
+    }
+    return kept;
+}
+
 double series_sum(const double* values, size_t count)
 {
     double sum = 0;

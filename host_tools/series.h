@@ -2,8 +2,11 @@
 #ifndef HYST_HOST_SERIES_H
 #define HYST_HOST_SERIES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
+/// Moves the values of the samples that are not carried (record.h) to the front; returns how many.
+size_t series_drop_carried(const bool* carried, double* values, size_t count);
 double series_sum(const double* values, size_t count);
 double series_mean(const double* values, size_t count);
 /// Mean square of the difference.

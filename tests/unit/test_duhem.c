@@ -74,6 +74,8 @@ static void run_element(void)
     }
 }
 
+static record_t bench = {.num_samples = SAMPLES, .input = input, .output = output};
+
 static duhem_t calibrate(double* rmse)
 {
     random_t random = random_new(9);
@@ -82,7 +84,7 @@ static duhem_t calibrate(double* rmse)
     for (size_t t = 0; t < SAMPLES; t++) {
         output[t] += noise * random_normal(&random);
     }
-    return duhem_fit(&model, START_NEGATIVE_SATURATION, input, output, SAMPLES, noise, rmse, precision);
+    return duhem_fit(&model, START_NEGATIVE_SATURATION, &bench, noise, rmse, precision);
 }
 
 /// What is asked of a body that stands in for the plays: beside the noise it leaves at most half a per cent
@@ -99,6 +101,22 @@ static void test_an_element_is_found_and_predicted(void)
     const double duhem_error = sqrt(series_mean_square(predicted, output, SAMPLES));
     reference_run(&model, START_NEGATIVE_SATURATION, input, SAMPLES, predicted);
     TEST_ASSERT_TRUE(duhem_error < 0.5 * sqrt(series_mean_square(predicted, output, SAMPLES)));
+}
+
+/// What stands at samples that are carried is no matter; their inputs are.
+static void test_what_is_carried_is_not_fitted(void)
+{
+    static bool carried[SAMPLES];
+    double rmse;
+    (void)calibrate(&rmse);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        carried[t] = t % 31 == 7;
+        output[t] = carried[t] ? output[0] : output[t];
+    }
+    bench.carried = carried;
+    (void)duhem_fit(&model, START_NEGATIVE_SATURATION, &bench, noise, &rmse, precision);
+    bench.carried = NULL;
+    TEST_ASSERT_TRUE(rmse < hypot(noise, 0.005));
 }
 
 /// The derivatives that the fit and the nuisance rest on, against differences. A step of the midpoint rule
@@ -149,6 +167,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_an_element_is_found_and_predicted);
+    RUN_TEST(test_what_is_carried_is_not_fitted);
     RUN_TEST(test_derivatives_are_those_of_the_output);
     RUN_TEST(test_ends_and_start);
     return UNITY_END();

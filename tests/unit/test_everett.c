@@ -45,13 +45,15 @@ static double play(double v, double radius, double state)
     return fmin(fmax(state, part - radius), part + radius);
 }
 
+static const record_t record = {.num_samples = SAMPLES, .input = input, .output = output};
+
 static double held_out(double (*body)(size_t t))
 {
     double left;
     for (size_t t = 0; t < SAMPLES; t++) {
         output[t] = body(t);
     }
-    (void)everett_fit(&model, input, output, SAMPLES, 10, precision, &left);
+    (void)everett_fit(&model, &record, 10, precision, &left);
     return left;
 }
 
@@ -94,6 +96,24 @@ static void test_a_play_is_predicted(void)
     TEST_ASSERT_TRUE(held_out(one_play) < 0.5 * sqrt(2.0 / 3) / EVERETT_CELLS);
 }
 
+/// What stands at samples that are carried is no matter; their inputs are.
+static void test_what_is_carried_is_not_fitted(void)
+{
+    static bool carried[SAMPLES];
+    record_t filled = record;
+    filled.carried = carried;
+    (void)held_out(line);
+    const double size = rms();
+    for (size_t t = 0; t < SAMPLES; t++) {
+        carried[t] = t % 31 == 7;
+        output[t] = carried[t] ? 0 : output[t];
+    }
+    double left;
+    (void)everett_fit(&model, &filled, 10, precision, &left);
+    // As in test_a_line_is_predicted.
+    TEST_ASSERT_TRUE(left < 0.01 * size);
+}
+
 /// A stepped model, and a plant with half of its steps: they are in the share exactly, wherever the output's
 /// zero is.
 static void check_steps_are_taken_away(double offset)
@@ -107,7 +127,7 @@ static void check_steps_are_taken_away(double offset)
         output[t] = 0.5 * model_output[t] + line(t);
     }
     double left;
-    const everett_t everett = everett_fit(&model, input, output, SAMPLES, 10, precision, &left);
+    const everett_t everett = everett_fit(&model, &record, 10, precision, &left);
     TEST_ASSERT_TRUE(left < 0.01 * rms());
     const double share = everett.value[EVERETT_SHARE] / everett.range.output_span;
     TEST_ASSERT_DOUBLE_WITHIN(0.01, -0.5, share);
@@ -182,6 +202,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_line_is_predicted);
     RUN_TEST(test_a_play_is_predicted);
+    RUN_TEST(test_what_is_carried_is_not_fitted);
     RUN_TEST(test_a_model_s_own_steps_are_taken_away);
     RUN_TEST(test_closed_loops_are_forgotten);
     RUN_TEST(test_a_run_is_the_sum_of_its_steps);

@@ -129,10 +129,14 @@ static void make_record(double (*shape)(size_t), start_t start, double noise)
     }
 }
 
+static char path[] = "made.csv";
+static bool carried[SAMPLES];
+static const record_t record = {.path = path, .num_samples = SAMPLES, .input = input, .output = output};
+
 static void run_identify(identify_envelope_t envelope)
 {
     const identify_options_t options = {.num_plays = PLAYS, .envelope = envelope};
-    TEST_ASSERT_EQUAL(OUTCOME_OK, identify("made.csv", input, output, SAMPLES, &options, &result));
+    TEST_ASSERT_EQUAL(OUTCOME_OK, identify(&record, &options, &result));
     has_result = true;
     TEST_ASSERT_NULL(model_check(&result.model).key);
     TEST_ASSERT_TRUE(isfinite(result.rmse));
@@ -278,7 +282,7 @@ static void test_plays_beyond_the_excitation_are_undetermined(void)
     // Twice the record's range: the outer half of the radii never moves.
     const identify_options_t options = {
         .num_plays = PLAYS, .envelope = IDENTIFY_LINEAR, .has_range = true, .input_min = -7, .input_max = 9};
-    TEST_ASSERT_EQUAL(OUTCOME_OK, identify("made.csv", input, output, SAMPLES, &options, &result));
+    TEST_ASSERT_EQUAL(OUTCOME_OK, identify(&record, &options, &result));
     has_result = true;
     size_t undetermined = 0;
     for (size_t j = 0; j < PLAYS; j++) {
@@ -322,19 +326,41 @@ static void test_a_model_of_the_kind_is_above_its_floor(void)
     TEST_ASSERT_TRUE(result.rmse >= result.monotone_floor);
 }
 
+/// Whatever stands at samples that are carried, the model is that of the others; the inputs there count.
+static void test_what_is_carried_is_not_fitted(void)
+{
+    make_classical();
+    make_record(shrinking, START_NEGATIVE_SATURATION, 0);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        carried[t] = t % 31 == 7;
+        output[t] = carried[t] ? output[SAMPLES / 2] : output[t];
+    }
+    record_t filled = record;
+    filled.carried = carried;
+    const identify_options_t options = {.num_plays = PLAYS, .envelope = IDENTIFY_LINEAR};
+    TEST_ASSERT_EQUAL(OUTCOME_OK, identify(&filled, &options, &result));
+    has_result = true;
+    // As in test_classical_model_is_recovered.
+    TEST_ASSERT_TRUE(result.relative < 1e-4);
+    TEST_ASSERT_EQUAL(SAMPLES - SAMPLES / 31 - (SAMPLES % 31 > 7), result.num_samples);
+}
+
 static void test_records_without_information_are_refused(void)
 {
+    const record_t turned = {.path = path, .num_samples = SAMPLES, .input = output, .output = input};
+    const record_t few = {.path = path, .num_samples = 5, .input = output, .output = output};
+    const record_t same = {.path = path, .num_samples = SAMPLES, .input = output, .output = output};
     const identify_options_t options = {.num_plays = PLAYS};
     for (size_t t = 0; t < SAMPLES; t++) {
         input[t] = 1;
         output[t] = (double)t;
     }
-    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify("made.csv", input, output, SAMPLES, &options, &result));
-    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify("made.csv", output, input, SAMPLES, &options, &result));
-    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify("made.csv", output, output, 5, &options, &result));
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify(&record, &options, &result));
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify(&turned, &options, &result));
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify(&few, &options, &result));
     const identify_options_t narrow = {
         .num_plays = PLAYS, .has_range = true, .input_min = 0, .input_max = 10};
-    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify("made.csv", output, output, SAMPLES, &narrow, &result));
+    TEST_ASSERT_EQUAL(OUTCOME_BAD_INPUT, identify(&same, &narrow, &result));
 }
 
 int main(void)
@@ -351,6 +377,7 @@ int main(void)
     RUN_TEST(test_clockwise_loop_is_recognised);
     RUN_TEST(test_monotone_floor_is_the_isotonic_regression);
     RUN_TEST(test_a_model_of_the_kind_is_above_its_floor);
+    RUN_TEST(test_what_is_carried_is_not_fitted);
     RUN_TEST(test_records_without_information_are_refused);
     return UNITY_END();
 }

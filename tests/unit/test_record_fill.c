@@ -11,7 +11,6 @@ enum { WHOLE = 400, RAMP = 25 };
 static const double sample_time = 0.02;
 static char path[] = "made.csv";
 static record_t record;
-static bool* carried;
 
 void setUp(void)
 {
@@ -20,8 +19,6 @@ void setUp(void)
 void tearDown(void)
 {
     record_free(&record);
-    free(carried);
-    carried = NULL;
 }
 
 typedef double input_t(size_t t);
@@ -89,10 +86,10 @@ static void lose(input_t* input, loss_t* lost)
 static void check_whole(input_t* input, loss_t* lost)
 {
     lose(input, lost);
-    record_fill(&record, &carried);
+    record_fill(&record);
     TEST_ASSERT_EQUAL(WHOLE, record.num_samples);
     for (size_t t = 0; t < WHOLE; t++) {
-        TEST_ASSERT_EQUAL(lost(t), carried[t]);
+        TEST_ASSERT_EQUAL(lost(t), record.carried[t]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, sample_time * (double)t, record.time[t]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, input(t), record.input[t]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0 * (double)t, record.output[t]);
@@ -123,20 +120,20 @@ static void test_runs_of_lost_samples_are_on_a_line(void)
 static void test_what_was_carried_stays_so(void)
 {
     lose(triangle, turns);
-    carried = xcalloc(record.num_samples, sizeof *carried);
-    memset(carried, true, 10);
-    record_fill(&record, &carried);
+    record.carried = xcalloc(record.num_samples, sizeof *record.carried);
+    memset(record.carried, true, 10);
+    record_fill(&record);
     for (size_t t = 0; t < WHOLE; t++) {
-        TEST_ASSERT_EQUAL(t < 10 || turns(t), carried[t]);
+        TEST_ASSERT_EQUAL(t < 10 || turns(t), record.carried[t]);
     }
 }
 
 static void check_same(void)
 {
     const size_t num_samples = record.num_samples;
-    record_fill(&record, &carried);
+    record_fill(&record);
     TEST_ASSERT_EQUAL(num_samples, record.num_samples);
-    TEST_ASSERT_NULL(carried);
+    TEST_ASSERT_NULL(record.carried);
 }
 
 static void test_nothing_lost_nothing_added(void)
@@ -196,7 +193,7 @@ static void test_noise_is_not_carried_away(void)
     for (size_t t = 0; t < record.num_samples; t++) {
         record.input[t] = random_normal(&random);
     }
-    record_fill(&record, &carried);
+    record_fill(&record);
     for (size_t t = RAMP; t < WHOLE; t += RAMP) {
         const double* x = &record.input[t];
         const double step = fmax(fabs(x[-1] - x[-2]), fabs(x[2] - x[1]));
@@ -215,7 +212,7 @@ static void test_a_short_record_has_no_courses(void)
     for (size_t t = 1; t < record.num_samples; t++) {
         record.time[t] = record.time[t - 1] + sample_time * (t == 2 ? 2 : 1);
     }
-    record_fill(&record, &carried);
+    record_fill(&record);
     TEST_ASSERT_EQUAL(6, record.num_samples);
     for (size_t t = 0; t < record.num_samples; t++) {
         TEST_ASSERT_TRUE(isfinite(record.input[t]));

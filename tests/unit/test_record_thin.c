@@ -16,7 +16,7 @@ static char name[] = "temperature";
 static char path[] = "made.csv";
 static column_t column = {name, warmth};
 static record_t record;
-static thinned_t thinned;
+static record_t thinned;
 
 /// Ramps of 200 samples and more between random levels, now and then a hold: times with a jitter of their
 /// own.
@@ -39,32 +39,32 @@ void setUp(void)
         output[t] = random_normal(&random);
         warmth[t] = (double)t;
     }
-    record = (record_t){path, SAMPLES, time_of, input, output, 1, &column};
+    record = (record_t){path, SAMPLES, time_of, input, output, 1, &column, NULL};
 }
 
 void tearDown(void)
 {
-    thinned_free(&thinned);
+    record_free(&thinned);
 }
 
 /// The sample of the whole record that a kept one is: the auxiliary column says its number.
 static size_t number_of(size_t kept)
 {
-    return (size_t)thinned.record.auxiliary[0].value[kept];
+    return (size_t)thinned.auxiliary[0].value[kept];
 }
 
 static void test_a_short_record_stays_as_it_is(void)
 {
     record.num_samples = MOST;
     thinned = record_thin(&record, MOST, 0);
-    TEST_ASSERT_EQUAL(MOST, thinned.record.num_samples);
+    TEST_ASSERT_EQUAL(MOST, thinned.num_samples);
     TEST_ASSERT_NULL(thinned.carried);
-    TEST_ASSERT_EQUAL_MEMORY(time_of, thinned.record.time, MOST * sizeof *time_of);
-    TEST_ASSERT_EQUAL_MEMORY(input, thinned.record.input, MOST * sizeof *input);
-    TEST_ASSERT_EQUAL_MEMORY(output, thinned.record.output, MOST * sizeof *output);
-    TEST_ASSERT_EQUAL_MEMORY(warmth, thinned.record.auxiliary[0].value, MOST * sizeof *warmth);
-    TEST_ASSERT_EQUAL_STRING(name, thinned.record.auxiliary[0].name);
-    TEST_ASSERT_EQUAL_STRING(path, thinned.record.path);
+    TEST_ASSERT_EQUAL_MEMORY(time_of, thinned.time, MOST * sizeof *time_of);
+    TEST_ASSERT_EQUAL_MEMORY(input, thinned.input, MOST * sizeof *input);
+    TEST_ASSERT_EQUAL_MEMORY(output, thinned.output, MOST * sizeof *output);
+    TEST_ASSERT_EQUAL_MEMORY(warmth, thinned.auxiliary[0].value, MOST * sizeof *warmth);
+    TEST_ASSERT_EQUAL_STRING(name, thinned.auxiliary[0].name);
+    TEST_ASSERT_EQUAL_STRING(path, thinned.path);
 }
 
 static void test_a_start_that_is_not_to_be_judged_is_carried(void)
@@ -73,15 +73,15 @@ static void test_a_start_that_is_not_to_be_judged_is_carried(void)
     const size_t first = 5000; // beyond the first stretch of the long one
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         record.num_samples = lengths[i];
-        thinned_t all = record_thin(&record, MOST, 0);
+        record_t all = record_thin(&record, MOST, 0);
         thinned = record_thin(&record, MOST, first);
-        TEST_ASSERT_EQUAL(all.record.num_samples, thinned.record.num_samples);
-        for (size_t k = 0; k < thinned.record.num_samples; k++) {
+        TEST_ASSERT_EQUAL(all.num_samples, thinned.num_samples);
+        for (size_t k = 0; k < thinned.num_samples; k++) {
             const bool was_carried = all.carried != NULL && all.carried[k];
             TEST_ASSERT_EQUAL(was_carried || number_of(k) < first, thinned.carried[k]);
         }
-        thinned_free(&all);
-        thinned_free(&thinned);
+        record_free(&all);
+        record_free(&thinned);
     }
 }
 
@@ -91,17 +91,17 @@ static void test_what_is_kept_is_the_record_s_own_in_order(void)
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         record.num_samples = lengths[i];
         thinned = record_thin(&record, MOST, 0);
-        TEST_ASSERT_TRUE(thinned.record.num_samples <= MOST);
+        TEST_ASSERT_TRUE(thinned.num_samples <= MOST);
         TEST_ASSERT_EQUAL(0, number_of(0));
-        TEST_ASSERT_EQUAL(lengths[i] - 1, number_of(thinned.record.num_samples - 1));
-        for (size_t k = 0; k < thinned.record.num_samples; k++) {
+        TEST_ASSERT_EQUAL(lengths[i] - 1, number_of(thinned.num_samples - 1));
+        for (size_t k = 0; k < thinned.num_samples; k++) {
             const size_t t = number_of(k);
             TEST_ASSERT_TRUE(k == 0 || t > number_of(k - 1));
-            TEST_ASSERT_EQUAL_DOUBLE(time_of[t], thinned.record.time[k]);
-            TEST_ASSERT_EQUAL_DOUBLE(input[t], thinned.record.input[k]);
-            TEST_ASSERT_EQUAL_DOUBLE(output[t], thinned.record.output[k]);
+            TEST_ASSERT_EQUAL_DOUBLE(time_of[t], thinned.time[k]);
+            TEST_ASSERT_EQUAL_DOUBLE(input[t], thinned.input[k]);
+            TEST_ASSERT_EQUAL_DOUBLE(output[t], thinned.output[k]);
         }
-        thinned_free(&thinned);
+        record_free(&thinned);
     }
 }
 
@@ -111,7 +111,7 @@ static void test_judged_samples_lie_in_stretches(void)
     thinned = record_thin(&record, MOST, 0);
     size_t judged = 0;
     size_t stretches = 0;
-    for (size_t k = 0; k < thinned.record.num_samples; k++) {
+    for (size_t k = 0; k < thinned.num_samples; k++) {
         judged += !thinned.carried[k];
         if (thinned.carried[k]) {
             continue;
@@ -142,9 +142,8 @@ static void test_plays_run_as_on_the_whole_record(void)
     static double short_of[MOST];
     thinned = record_thin(&record, MOST, 0);
     reference_run(&model, START_NEGATIVE_SATURATION, input, SAMPLES, whole);
-    reference_run(&model, START_NEGATIVE_SATURATION, thinned.record.input, thinned.record.num_samples,
-                  short_of);
-    for (size_t k = 0; k < thinned.record.num_samples; k++) {
+    reference_run(&model, START_NEGATIVE_SATURATION, thinned.input, thinned.num_samples, short_of);
+    for (size_t k = 0; k < thinned.num_samples; k++) {
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, whole[number_of(k)], short_of[k]);
     }
     model_free(&model);
@@ -154,8 +153,8 @@ static void test_a_record_without_time_counts_its_samples(void)
 {
     record.time = NULL;
     thinned = record_thin(&record, MOST, 0);
-    for (size_t k = 0; k < thinned.record.num_samples; k++) {
-        TEST_ASSERT_EQUAL_DOUBLE((double)number_of(k), thinned.record.time[k]);
+    for (size_t k = 0; k < thinned.num_samples; k++) {
+        TEST_ASSERT_EQUAL_DOUBLE((double)number_of(k), thinned.time[k]);
     }
 }
 
