@@ -5,20 +5,22 @@
 ///                tau_j dw/dt, at rest inside its strip it stays; tau_j = tau (1 + spread r_j / r_N): walls
 ///                that take more to move may be slower; hold as for an input_lag; the plays trail already as
 ///                the record begins, where the input has come through the range to its first sample at
-///                `approach`
+///                `approach`; of the major loop's middle, which a model's plays and nonhysteretic part share
+///                out at will, as no slow record tells them apart, the part `direct` comes at once although
+///                plays give it
 ///     widening:  r_j + coefficient |dv/dt| for every radius
 ///     diffusion: the plays see the field inside, which diffuses across a conductor (field.h)
 ///     excess:    the plays see the field less what moving walls take, coefficient * sqrt(rate) (field.h)
-/// tau >= 0 [s]; spread > -1 and hold 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure], 0 when left out;
-/// coefficient >= 0 [envelope units per
-/// input/s], fitted up to where the mean rate doubles the largest radius; excess >= 0 [input units per root
-/// of input/s], fitted up to half the range behind at the mean rate. share 0 ... 1: how much of the
-/// nonhysteretic part sees that field too; what does not lag tells these from an input_lag. hold 0 ... 1 as
-/// for that; a diffusion's counts for an excess field behind it, too. They count a quarter of an effect more,
-/// as with a share of 1 a small one is a lag of the input. Inverse: by halving, sample by sample; widening
-/// has none. Sources: viscous plays as in G. Bertotti's dynamic Preisach model, IEEE Trans. Magn. 28 (1992)
-/// 2599; widening radii: M. Al Janaideh, S. Rakheja, C.-Y. Su, Mechatronics 19 (2009) 656; classical and
-/// excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
+/// tau >= 0 [s]; spread > -1, hold and direct 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure], 0 when
+/// left out; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles the
+/// largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at the
+/// mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag tells
+/// these from an input_lag. hold 0 ... 1 as for that; a diffusion's counts for an excess field behind it,
+/// too. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the input.
+/// Inverse: by halving, sample by sample; widening has none. Sources: viscous plays as in G. Bertotti's
+/// dynamic Preisach model, IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S. Rakheja,
+/// C.-Y. Su, Mechatronics 19 (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988)
+/// 621.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -36,7 +38,8 @@ static const effect_parameter_t widening_parameter[] = {{"coefficient", "envelop
         "hold", "1", .least = 0.0, .most = 1.0, .optional = true                                             \
     }
 
-enum { STRENGTH, SHARE, HOLD }; // of a field
+enum { STRENGTH, SHARE, HOLD };                        // of a field
+enum { TAU, SPREAD, APPROACH, DIRECT, PLAY_LAG_HOLD }; // of a play_lag
 
 static const effect_parameter_t diffusion_parameters[] = {
     {"tau", "s", AT_LEAST_0}, SHARE_PARAMETER, HOLD_PARAMETER};
@@ -101,11 +104,12 @@ static void configure_lag(const effect_run_t* run, const double* parameter, cons
 {
     (void)run;
     (void)column;
-    hysteresis->play_lag += parameter[0];
-    if (parameter[0] > 0.0) {
-        hysteresis->lag_spread = parameter[1];
-        hysteresis->approach = parameter[2];
-        hysteresis->lag_hold = parameter[3];
+    hysteresis->play_lag += parameter[TAU];
+    if (parameter[TAU] > 0.0) {
+        hysteresis->lag_spread = parameter[SPREAD];
+        hysteresis->approach = parameter[APPROACH];
+        hysteresis->lag_direct = parameter[DIRECT];
+        hysteresis->lag_hold = parameter[PLAY_LAG_HOLD];
     }
 }
 
@@ -126,25 +130,27 @@ static void configure_widening(const effect_run_t* run, const double* parameter,
 }
 
 static const effect_parameter_t play_lag_parameters[] = {
-    {"tau", "s", AT_LEAST_0},
-    {"spread", "1", .least = -0.99, .most = 10.0, .optional = true},
-    {"approach", "input/s", AT_LEAST_0, .optional = true},
-    HOLD_PARAMETER,
+    [TAU] = {"tau", "s", AT_LEAST_0},
+    [SPREAD] = {"spread", "1", .least = -0.99, .most = 10.0, .optional = true},
+    [APPROACH] = {"approach", "input/s", AT_LEAST_0, .optional = true},
+    [DIRECT] = {"direct", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true},
+    [PLAY_LAG_HOLD] = HOLD_PARAMETER,
 };
 
 static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     const double fastest = run->input_rate > 0.0 ? 10.0 * run->input_rate : 1.0;
-    *result = parameter == 0   ? limits_time_constant(run)
-              : parameter == 1 ? limits_linear(-0.9, 3.0, 0.0, 0.3, 1.0, 0.1)
-              : parameter == 2 ? limits_linear(0.0, fastest, 0.0, 0.0, 0.3 * fastest, 0.03 * fastest)
-                               : hold_limits();
+    *result = parameter == TAU        ? limits_time_constant(run)
+              : parameter == SPREAD   ? limits_linear(-0.9, 3.0, 0.0, 0.3, 1.0, 0.1)
+              : parameter == APPROACH ? limits_linear(0.0, fastest, 0.0, 0.0, 0.3 * fastest, 0.03 * fastest)
+              : parameter == DIRECT   ? limits_linear(0.0, 1.0, 0.0, 0.1, 0.3, 0.03)
+                                      : hold_limits();
 }
 
 /// Another record's past is taken to be at leisure.
 static void play_lag_for_another_record(double* parameter)
 {
-    parameter[2] = 0.0;
+    parameter[APPROACH] = 0.0;
 }
 
 const effect_t effect_rate_dependence_play_lag = {

@@ -1,4 +1,5 @@
 #include "hysteresis.h"
+#include "lag_step.h"
 #include "reference.h"
 #include <float.h>
 #include <math.h>
@@ -277,8 +278,21 @@ static double shifted(const hysteresis_state_t* state, const arrival_t* to, doub
 /// What a step leads to, beside the plays' memory.
 typedef struct {
     field_state_t field;
-    double seen, nonhysteretic, travel, sum, correction;
+    double seen, nonhysteretic, travel, sum, correction, lagged_middle, ahead;
 } outlook_t;
+
+static bool has_direct(const hysteresis_t* hysteresis)
+{
+    return hysteresis->play_lag > 0.0 && hysteresis->lag_direct > 0.0;
+}
+
+/// The major loop's middle as a play of no radius lags behind it, `step` seconds on.
+static double next_middle(const hysteresis_state_t* state, double lagged, double from, double to, double step)
+{
+    const lag_step_t lag = lag_step_held(step, state->hysteresis->play_lag, state->hysteresis->lag_hold);
+    const loop_middle_t* middle = state->hysteresis->middle;
+    return lag_next(lag, lagged, loop_middle_at(middle, from), loop_middle_at(middle, to));
+}
 
 /// How far increments (amplitude: the sum about its middle) scale at input v after `travel`.
 static double increment_factor(const hysteresis_state_t* state, double v, double travel)
@@ -309,6 +323,11 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     next.travel = state->travel + fabs(v - state->command);
     next.sum = weighted_sum(state->model, scratch);
     next.correction = state->correction;
+    if (has_direct(hysteresis)) {
+        next.lagged_middle = next_middle(state, state->lagged_middle, state->input, next.seen, step);
+        next.ahead =
+            hysteresis->lag_direct * (loop_middle_at(hysteresis->middle, next.seen) - next.lagged_middle);
+    }
     if (differs(hysteresis->level_gain) || differs(hysteresis->wear)) {
         const double factor =
             increment_factor(state, 0.5 * (v + state->command), 0.5 * (next.travel + state->travel));
@@ -331,7 +350,7 @@ double hysteresis_stiffened(const hysteresis_t* hysteresis, const model_t* model
 static double output_at(const hysteresis_state_t* state, double v, const outlook_t* at)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
-    double output = at->nonhysteretic + at->sum + at->correction;
+    double output = at->nonhysteretic + at->sum + at->correction + at->ahead;
     if (differs(hysteresis->level_product) || differs(hysteresis->fade)) {
         output += (amplitude_factor(state, v, at->travel) - 1.0) * (at->sum - state->sum_middle);
     }
@@ -385,10 +404,14 @@ static void ramp_to(hysteresis_state_t* state, double to)
     const double from = state->input;
     const double step = fabs(to - from) / state->hysteresis->approach / STEPS;
     for (int k = 1; k <= STEPS && step > 0.0; ++k) {
-        move_plays(state, from + (to - from) * k / STEPS, step, state->memory + state->model->num_plays);
+        const double next = from + (to - from) * k / STEPS;
+        move_plays(state, next, step, state->memory + state->model->num_plays);
         memcpy(state->memory, state->memory + state->model->num_plays,
                state->model->num_plays * sizeof(double));
-        state->input = from + (to - from) * k / STEPS;
+        if (has_direct(state->hysteresis)) {
+            state->lagged_middle = next_middle(state, state->lagged_middle, state->input, next, step);
+        }
+        state->input = next;
     }
     state->input = to;
 }
@@ -415,6 +438,9 @@ static void approach_first(hysteresis_state_t* state, start_t start)
     memcpy(state->memory, reference.memory, model->num_plays * sizeof(double));
     state->input = reference.input;
     reference_free(&reference);
+    if (has_direct(hysteresis)) {
+        state->lagged_middle = loop_middle_at(hysteresis->middle, state->input);
+    }
     if (is_saturated) {
         ramp_to(state, from_top ? model->input_min : model->input_max);
     }
@@ -435,6 +461,9 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
                                 .memory = xcalloc(2 * model->num_plays, sizeof(double))};
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
+    if (has_direct(hysteresis)) {
+        state.lagged_middle = loop_middle_at(hysteresis->middle, seen);
+    }
     const bool trails = differs(hysteresis->play_lag) && hysteresis->approach > 0.0;
     if (trails) {
         approach_first(&state, start);
@@ -447,6 +476,10 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
         for (size_t j = 0; j < model->num_plays; ++j) {
             state.memory[j] = moved(state.memory[j], model->radius[j], &strip, 0, false);
         }
+    }
+    if (has_direct(hysteresis)) {
+        state.ahead =
+            hysteresis->lag_direct * (loop_middle_at(hysteresis->middle, seen) - state.lagged_middle);
     }
     state.sum = weighted_sum(model, state.memory);
     state.nonhysteretic = curve_value(&model->nonhysteretic, first_input);
@@ -467,6 +500,7 @@ double hysteresis_output(const hysteresis_state_t* state)
         .travel = state->travel,
         .sum = state->sum,
         .correction = state->correction,
+        .ahead = state->ahead,
     };
     return output_at(state, state->command, &present);
 }
@@ -483,6 +517,8 @@ double hysteresis_step(hysteresis_state_t* state, double input, double step)
     state->sum = next.sum;
     state->nonhysteretic = next.nonhysteretic;
     state->correction = next.correction;
+    state->lagged_middle = next.lagged_middle;
+    state->ahead = next.ahead;
     return output_at(state, input, &next);
 }
 

@@ -20,6 +20,8 @@ typedef struct {
     double lag_spread; ///< play_lag is 1 + lag_spread as long at the largest radius, in between by the radius
     double lag_hold;   ///< how far the strip is on its way as a sample begins: 0, it goes straight; 1, it is
                        ///< there at once
+    double lag_direct; ///< 0 ... 1: this part of the major loop's middle comes at once, as the plays would
+                       ///< give it without a lag, not with play_lag behind
     double approach; ///< [input/s] how fast the input came to its first sample, as plays with a lag tell; 0:
                      ///< at leisure
     double widening; ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
@@ -93,6 +95,8 @@ typedef struct {
     double nonhysteretic;        ///< the nonhysteretic part
     double sum_middle, sum_half; ///< of what it spans between the saturations
     double correction;           ///< what increments scaled by level_gain and wear have added so far
+    double lagged_middle;        ///< the major loop's middle with play_lag behind, where lag_direct counts
+    double ahead;                ///< what lag_direct adds
 } hysteresis_state_t;
 /// At the first sample, with the input first_input.
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,

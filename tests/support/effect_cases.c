@@ -23,7 +23,7 @@ static const effect_case_t cases[] = {
     {"delay", "measurement", {0.083}, 1.0},
     {"input_lag", NULL, {0.15, 0.3}, 1.3},
     {"slew_limit", NULL, {1.5, 0.2}, 1.0},
-    {"rate_dependence", "play_lag", {0.06, 0.7, 30.0}, 1.0},
+    {"rate_dependence", "play_lag", {0.06, 0.7, 30.0, 0.2}, 1.0},
     {"rate_dependence", "widening", {0.03}, 1.0},
     {"rate_dependence", "diffusion", {0.15, 0.3}, 1.0},
     {"rate_dependence", "excess", {0.15, 0.3}, 1.0},

@@ -30,6 +30,7 @@ typedef struct {
     double w[PLAYS];
     double sum, scaled, travel;
     double middle, half;
+    double lagged_middle;
     double lag[LAGS];
     double power[POWER_LAGS];
     double place, speed;
@@ -172,19 +173,45 @@ static void move_play(const plant_t* plant, double r, double* w, double low, dou
     }
 }
 
-/// A play that lags, down the range from positive saturation and up to v at p[2].
+/// The next input of a way down the range from its top and up to v at p[2].
+static double approached(const plant_t* plant, double u, double* to, double v)
+{
+    const double reach = plant->p[2] * plant->dt;
+    u += clamp(*to - u, -reach, reach);
+    *to = u > plant->model->input_min ? *to : v;
+    return u;
+}
+
+/// A play that lags, come this way from positive saturation.
 static double after_approach(const plant_t* plant, double r, double v)
 {
     const model_t* model = plant->model;
-    const double reach = plant->p[2] * plant->dt;
     double w = tanh(model->ascending.slope * model->input_max + model->ascending.shift) - r;
     double u = model->input_max;
-    for (double to = model->input_min; u > to || u<v; to = u> model->input_min ? to : v) {
-        u += clamp(to - u, -reach, reach);
+    double to = model->input_min;
+    while (u > to || u < v) {
+        u = approached(plant, u, &to, v);
         move_play(plant, r, &w, tanh(model->ascending.slope * u + model->ascending.shift) - r,
                   tanh(model->descending.slope * u + model->descending.shift) + r);
     }
     return w;
+}
+
+/// How far the major loop's middle at v is above itself with the plays' lag behind.
+static double middle_ahead(plant_t* plant, double v)
+{
+    const double part = plant->dt / plant->p[0];
+    if (!plant->started) {
+        double u = plant->model->input_max;
+        double to = plant->model->input_min;
+        plant->lagged_middle = -above_middle(plant, u, 0);
+        while (u > to || u < v) {
+            u = approached(plant, u, &to, v);
+            plant->lagged_middle += part * (-above_middle(plant, u, 0) - plant->lagged_middle);
+        }
+    }
+    plant->lagged_middle += part * (-above_middle(plant, v, 0) - plant->lagged_middle);
+    return -above_middle(plant, v, 0) - plant->lagged_middle;
 }
 
 static void start_plays(plant_t* plant, double v)
@@ -510,6 +537,9 @@ static double material(plant_t* plant, double v, double temperature)
     double output = sum + (1 - share) * nonhysteretic(plant, v) + share * nonhysteretic(plant, plant->seen);
     if (by(plant, "noncongruency", "remanence_field")) {
         output = sum + nonhysteretic(plant, v + plant->p[1] * plant->p[0] * half_range * before);
+    }
+    if (by(plant, "rate_dependence", "play_lag")) {
+        output += plant->p[3] * middle_ahead(plant, v);
     }
     double middle;
     double half;

@@ -341,7 +341,7 @@ static void held_viscous_plays_are_sampled_filters(void)
     const double tau = 0.02;
     const double spread = 0.7;
     const effect_use_t use =
-        effect_case_use(&(effect_case_t){"rate_dependence", "play_lag", {tau, spread, 0.0, 1.0}, 1.0});
+        effect_case_use(&(effect_case_t){"rate_dependence", "play_lag", {tau, spread, 0.0, 0.0, 1.0}, 1.0});
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
     reference_t start = reference_new(&model, START_NEGATIVE_SATURATION, record.input[0]);
     for (size_t i = 1; i < run.num_samples; ++i) {
