@@ -150,6 +150,12 @@ bool hypothesis_is_behind_plays(const hypothesis_t* hypothesis)
     return behind;
 }
 
+bool hypothesis_ends_behind_plays(const hypothesis_t* hypothesis)
+{
+    return hypothesis->num_uses > 0 && !hypothesis_is_behind_plays(hypothesis) &&
+           !acts_before_body(hypothesis->use[hypothesis->num_uses - 1].effect);
+}
+
 /// The parameters of all effects up to the plays.
 static size_t list_before_body(const hypothesis_t* hypothesis, double* parameter)
 {
@@ -180,10 +186,11 @@ static bool plays_are_kept(const search_t* s)
     return memcmp(now, s->before_body, count * sizeof *now) == 0;
 }
 
-static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_out)
+/// Of the parameters of effects from `first` on.
+static search_t search_from(hypothesis_t* hypothesis, size_t first, const gap_t* gap, int held_out)
 {
     search_t s = {.gap = gap, .hypothesis = hypothesis, .held_out = held_out};
-    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+    for (size_t i = first; i < hypothesis->num_uses; i++) {
         effect_use_t* use = &hypothesis->use[i];
         for (size_t p = 0; p < use->effect->num_parameters; p++) {
             const effect_limits_t limits = effect_use_limits(gap->run, use, p);
@@ -202,6 +209,11 @@ static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_
     s.plays = xmalloc(gap->run->num_samples * sizeof *s.plays);
     run_plays(&s);
     return s;
+}
+
+static search_t search_new(hypothesis_t* hypothesis, const gap_t* gap, int held_out)
+{
+    return search_from(hypothesis, 0, gap, held_out);
 }
 
 static void search_free(search_t* s)
@@ -311,11 +323,11 @@ static bool is_another(const hypothesis_t* hypothesis, const effect_run_t* run)
     return false;
 }
 
-void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations)
+static void fit(search_t* search, int max_evaluations)
 {
-    search_t s = search_new(hypothesis, gap, held_out);
-    const size_t m = num_residuals(&s);
-    const size_t n = s.num_free;
+    const size_t m = num_residuals(search);
+    const size_t n = search->num_free;
+    hypothesis_t* hypothesis = search->hypothesis;
     double* work = xcalloc(2 * m + m * (n + 1) + 6 * (n + 1), sizeof *work);
     double* residual = work;
     if (n > 0 && m > n) {
@@ -323,32 +335,45 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
         int pivot[MAX_THETA];
         int evaluations = 0;
         for (size_t i = 0; i < n; i++) {
-            theta[i] = bounded_to_free(s.free[i].bounds, *s.free[i].value);
+            theta[i] = bounded_to_free(search->free[i].bounds, *search->free[i].value);
         }
         double* vectors = residual + m;
         double* jacobian = vectors + m;
         double* v = jacobian + m * n;
         // A wide difference step: delays, clips and steps are not smooth at the scale of rounding.
-        lmdif(minpack_residual, &s, (int)m, (int)n, theta, residual, 1e-6, 1e-6, 0, max_evaluations, 1e-6, v,
-              1, 1, 0, &evaluations, jacobian, (int)m, pivot, v + n, v + 2 * n, v + 3 * n, v + 4 * n,
+        lmdif(minpack_residual, search, (int)m, (int)n, theta, residual, 1e-6, 1e-6, 0, max_evaluations, 1e-6,
+              v, 1, 1, 0, &evaluations, jacobian, (int)m, pivot, v + n, v + 2 * n, v + 3 * n, v + 4 * n,
               vectors);
         for (size_t i = 0; i < n; i++) {
-            *s.free[i].value = bounded_from_free(s.free[i].bounds, theta[i]);
+            *search->free[i].value = bounded_from_free(search->free[i].bounds, theta[i]);
         }
     }
     for (size_t i = 0; i < hypothesis->num_uses; i++) {
         effect_use_normalise(&hypothesis->use[i]);
     }
-    residual_of(&s, true, residual);
-    keep_fitted(&s, residual);
+    residual_of(search, true, residual);
+    keep_fitted(search, residual);
     double sum = 0;
     for (size_t t = 0; t < m; t++) {
         sum += residual[t] * residual[t];
     }
-    hypothesis->fit_rmse = sqrt(sum / (double)count_fitted(&s));
-    hypothesis->is_another = is_another(hypothesis, gap->run);
+    hypothesis->fit_rmse = sqrt(sum / (double)count_fitted(search));
+    hypothesis->is_another = is_another(hypothesis, search->gap->run);
     free(work);
-    search_free(&s);
+}
+
+void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations)
+{
+    search_t search = search_new(hypothesis, gap, held_out);
+    fit(&search, max_evaluations);
+    search_free(&search);
+}
+
+void hypothesis_fit_last(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
+{
+    search_t search = search_from(hypothesis, hypothesis->num_uses - 1, gap, -1);
+    fit(&search, max_evaluations);
+    search_free(&search);
 }
 
 /// The best of evenly spread values of an effect's first parameter, the others as they are: thresholds and

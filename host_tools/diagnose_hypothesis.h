@@ -48,6 +48,8 @@ void hypothesis_free(hypothesis_t* hypothesis);
 bool hypothesis_names_use(const hypothesis_t* hypothesis, const effect_use_t* use);
 /// Whether all its effects act on what the plays give, so that a fit runs them once.
 bool hypothesis_is_behind_plays(const hypothesis_t* hypothesis);
+/// Whether the last one does, and not all.
+bool hypothesis_ends_behind_plays(const hypothesis_t* hypothesis);
 /// What an effect of it that is not of the catalogue looks like: what that explains is unknown. NULL: there
 /// is none.
 const char* hypothesis_outside(const hypothesis_t* hypothesis);
@@ -59,6 +61,8 @@ void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
 /// Fits from the present parameters to all blocks but those of `held_out` (-1: to all); sets fit_rmse
 /// and is_another.
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
+/// The same on all blocks with the last effect's parameters only.
+void hypothesis_fit_last(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);
 /// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
 /// Fills `predicted` for the present parameters.

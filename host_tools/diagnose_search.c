@@ -174,6 +174,26 @@ static hypothesis_t from_start(const candidates_t* c, const hypothesis_t* base, 
     return joint;
 }
 
+/// The base and the further effect by those of its mechanisms that act behind the base's plays, of which a
+/// brief fit with the base as it is costs next to nothing: what that leaves least of. False: there is none.
+static bool best_behind_plays(const candidates_t* c, const extension_t* e, hypothesis_t* best)
+{
+    best->fit_rmse = HUGE_VAL;
+    for (size_t i = 1; i <= c->num_singles; i++) {
+        const bool is_named = hypothesis_names_use(&c->hypothesis[i], &e->further->use[0]);
+        for (int start = 0; is_named && start < 3; start++) {
+            hypothesis_t trial = from_start(c, e->base, &c->hypothesis[i], start);
+            if (!hypothesis_ends_behind_plays(&trial)) {
+                break;
+            }
+            (void)guess_parameters(c->gap, e->base->predicted, &trial.use[e->base->num_uses]);
+            hypothesis_fit_last(&trial, c->gap, BRIEF_EVALUATIONS);
+            *best = trial.fit_rmse < best->fit_rmse ? trial : *best;
+        }
+    }
+    return isfinite(best->fit_rmse);
+}
+
 /// The base and the further effect by the mechanism and from the start that promise most.
 static hypothesis_t most_promising(const candidates_t* c, const extension_t* e)
 {
@@ -210,6 +230,17 @@ static void go_on_while_worse(const candidates_t* c, extension_t* e)
     }
 }
 
+static void fit_from_starts(const candidates_t* c, extension_t* e)
+{
+    hypothesis_t first = from_start(c, e->base, e->further, 0);
+    (void)guess_parameters(c->gap, e->base->predicted, &first.use[e->base->num_uses]);
+    fit_briefly(c, &first, &e->fitted);
+    hypothesis_t promising = most_promising(c, e);
+    if (promising.use[e->base->num_uses].effect != first.use[e->base->num_uses].effect) {
+        fit_briefly(c, &promising, &e->fitted);
+    }
+}
+
 /// Briefly: from what each was alone, and from starts, since beside the others the further effect may be of
 /// another size or mechanism than alone.
 static void try_extension(void* context, size_t index)
@@ -218,12 +249,13 @@ static void try_extension(void* context, size_t index)
     extension_t* e = &((const extensions_t*)context)->extension[index];
     e->fitted = joined(e->base, e->further);
     hypothesis_fit(&e->fitted, c->gap, -1, brief_evaluations(&e->fitted));
-    hypothesis_t first = from_start(c, e->base, e->further, 0);
-    (void)guess_parameters(c->gap, e->base->predicted, &first.use[e->base->num_uses]);
-    fit_briefly(c, &first, &e->fitted);
-    hypothesis_t promising = most_promising(c, e);
-    if (promising.use[e->base->num_uses].effect != first.use[e->base->num_uses].effect) {
-        fit_briefly(c, &promising, &e->fitted);
+    if (!hypothesis_ends_behind_plays(&e->fitted)) {
+        fit_from_starts(c, e);
+    }
+    hypothesis_t behind = e->fitted;
+    if (best_behind_plays(c, e, &behind)) {
+        hypothesis_fit_last(&behind, c->gap, 3 * BRIEF_EVALUATIONS);
+        fit_briefly(c, &behind, &e->fitted);
     }
     go_on_while_worse(c, e);
 }

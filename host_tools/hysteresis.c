@@ -116,37 +116,42 @@ static double upper_end(const strip_t* strip, double radius)
     return strip->descending + larger(radius + strip->extra, 0.0);
 }
 
+/// A play's lag and what it leaves out of a whole step, 1 - exp(-step/lag).
+typedef struct {
+    double time, missing;
+} play_lag_t;
+
 /// Where a state ends that a bound, moving evenly from `from` to `to` in `step` seconds, pulls up: w' =
 /// (bound - w)/lag below it, 0 above. With e = bound - w and the bound's speed s: e(t) = s lag + (e0 - s lag)
 /// exp(-t/lag).
-static double pulled_up(double w, double from, double to, double step, double lag)
+static double pulled_up(double w, double from, double to, double step, play_lag_t lag)
 {
     const double speed = (to - from) / step;
     const double below = from - w;
     if (below > 0.0) {
         if (speed < 0.0) {
-            const double meeting = lag * log1p(below / (-speed * lag));
+            const double meeting = lag.time * log1p(below / (-speed * lag.time));
             if (meeting < step) {
                 return from + speed * meeting;
             }
         }
-        return to - below * exp(-step / lag) + speed * (lag * expm1(-step / lag));
+        return to - below * (1.0 - lag.missing) - speed * (lag.time * lag.missing);
     }
     if (to > w) {
         const double left = (to - w) / speed;
-        return to + speed * (lag * expm1(-left / lag));
+        return to + speed * (lag.time * expm1(-left / lag.time));
     }
     return w;
 }
 
-static double pulled_down(double w, double from, double to, double step, double lag)
+static double pulled_down(double w, double from, double to, double step, play_lag_t lag)
 {
     return -pulled_up(-w, -from, -to, step, lag);
 }
 
 /// One play through one step; direction 1 rising, -1 falling, 0 held.
 static double lagged(double w, double radius, const strip_t* from, const strip_t* to, int direction,
-                     double step, double lag)
+                     double step, play_lag_t lag)
 {
     const double low[2] = {lower_end(from, radius), lower_end(to, radius)};
     const double high[2] = {upper_end(from, radius), upper_end(to, radius)};
@@ -177,6 +182,28 @@ static strip_t strip_between(const strip_t* from, const strip_t* to, double part
                      from->extra + part * (to->extra - from->extra)};
 }
 
+static double play_lag_time(const hysteresis_state_t* state, size_t play)
+{
+    const double* radius = state->model->radius;
+    const double largest = larger(radius[state->model->num_plays - 1], DBL_MIN);
+    return state->hysteresis->play_lag * (1.0 + state->hysteresis->lag_spread * radius[play] / largest);
+}
+
+/// 1 - exp(-step/lag) of every play; kept behind both memories, as steps seldom differ.
+static const double* missing_of(const hysteresis_state_t* state, double step)
+{
+    const model_t* model = state->model;
+    double* missing = state->memory + 2 * model->num_plays;
+    double* kept_step = missing + model->num_plays;
+    if (!lag_is_same_step(step, *kept_step)) {
+        for (size_t j = 0; j < model->num_plays; ++j) {
+            missing[j] = -expm1(-step / play_lag_time(state, j));
+        }
+        *kept_step = step;
+    }
+    return missing;
+}
+
 static void move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
 {
     const model_t* model = state->model;
@@ -187,13 +214,17 @@ static void move_plays(const hysteresis_state_t* state, double v, double step, d
     const strip_t to = strip_at(model, v, speed + (width != NULL ? width[state->sample + 1] : 0.0));
     const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
     const bool own_radii = width == NULL && !differs(hysteresis->widening);
+    if (!(hysteresis->play_lag > 0.0)) {
+        for (size_t j = 0; j < model->num_plays; ++j) {
+            memory[j] = moved(state->memory[j], model->radius[j], &to, direction, own_radii);
+        }
+        return;
+    }
     const strip_t held = strip_between(&from, &to, hysteresis->lag_hold);
-    const double largest = larger(model->radius[model->num_plays - 1], DBL_MIN);
+    const double* missing = missing_of(state, step);
     for (size_t j = 0; j < model->num_plays; ++j) {
-        const double w = state->memory[j];
-        const double lag = hysteresis->play_lag * (1.0 + hysteresis->lag_spread * model->radius[j] / largest);
-        memory[j] = lag > 0.0 ? lagged(w, model->radius[j], &held, &to, direction, step, lag)
-                              : moved(w, model->radius[j], &to, direction, own_radii);
+        const play_lag_t lag = {play_lag_time(state, j), missing[j]};
+        memory[j] = lagged(state->memory[j], model->radius[j], &held, &to, direction, step, lag);
     }
 }
 
@@ -458,7 +489,7 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
                                 .input = seen,
                                 .command = first_input,
                                 .field = field_start(first_input),
-                                .memory = xcalloc(2 * model->num_plays, sizeof(double))};
+                                .memory = xcalloc(3 * model->num_plays + 1, sizeof(double))};
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
     if (has_direct(hysteresis)) {

@@ -85,7 +85,8 @@ void hysteresis_run(const model_t* model, start_t start, const hysteresis_t* hys
 typedef struct {
     const model_t* model;
     const hysteresis_t* hysteresis;
-    double* memory;      ///< [2 num_plays] the states, then scratch
+    double* memory; ///< [3 num_plays + 1] the states, scratch, what each play's lag leaves out of the last
+                    ///< step, and that step
     field_state_t field; ///< the input as it comes to the plays
     size_t sample;       ///< the present sample's index
     double input;        ///< what the plays see
