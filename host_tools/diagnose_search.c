@@ -186,12 +186,13 @@ static bool best_behind_plays(const candidates_t* c, const extension_t* e, hypot
             if (!hypothesis_ends_behind_plays(&trial)) {
                 break;
             }
-            (void)guess_parameters(c->gap, e->base->predicted, &trial.use[e->base->num_uses]);
+            // A guess is the same from every start.
+            start = guess_parameters(c->gap, e->base->predicted, &trial.use[e->base->num_uses]) ? 2 : start;
             hypothesis_fit_last(&trial, c->gap, BRIEF_EVALUATIONS);
-            *best = trial.fit_rmse < best->fit_rmse ? trial : *best;
+            *best = by_mean_square(&trial, best) < 0 ? trial : *best;
         }
     }
-    return isfinite(best->fit_rmse);
+    return isfinite(hypothesis_mean_square(best));
 }
 
 /// The base and the further effect by the mechanism and from the start that promise most.
@@ -230,6 +231,19 @@ static void go_on_while_worse(const candidates_t* c, extension_t* e)
     }
 }
 
+/// Whether that holds for every mechanism of the further effect.
+static bool is_always_behind_plays(const candidates_t* c, const extension_t* e)
+{
+    bool always = true;
+    for (size_t i = 1; i <= c->num_singles; i++) {
+        if (hypothesis_names_use(&c->hypothesis[i], &e->further->use[0])) {
+            const hypothesis_t joint = joined(e->base, &c->hypothesis[i]);
+            always = always && hypothesis_ends_behind_plays(&joint);
+        }
+    }
+    return always;
+}
+
 static void fit_from_starts(const candidates_t* c, extension_t* e)
 {
     hypothesis_t first = from_start(c, e->base, e->further, 0);
@@ -249,7 +263,7 @@ static void try_extension(void* context, size_t index)
     extension_t* e = &((const extensions_t*)context)->extension[index];
     e->fitted = joined(e->base, e->further);
     hypothesis_fit(&e->fitted, c->gap, -1, brief_evaluations(&e->fitted));
-    if (!hypothesis_ends_behind_plays(&e->fitted)) {
+    if (!is_always_behind_plays(c, e)) {
         fit_from_starts(c, e);
     }
     hypothesis_t behind = e->fitted;

@@ -221,6 +221,20 @@ static duhem_t fit(fit_t* f)
     return d;
 }
 
+/// Of what the model leaves of the samples that were measured.
+static double model_mean_square(const record_t* bench, const double* modelled)
+{
+    double sum = 0;
+    double count = 0;
+    for (size_t t = 0; t < bench->num_samples; t++) {
+        if (!record_is_carried(bench, t)) {
+            sum += (bench->output[t] - modelled[t]) * (bench->output[t] - modelled[t]);
+            count += 1;
+        }
+    }
+    return sum / count;
+}
+
 duhem_t duhem_fit(const model_t* model, start_t start, const record_t* bench, double noise, double* rmse,
                   double* precision)
 {
@@ -230,10 +244,7 @@ duhem_t duhem_fit(const model_t* model, start_t start, const record_t* bench, do
     go_everywhere(model, elsewhere, ELSEWHERE);
     reference_run(model, start, bench->input, num_samples, modelled);
     reference_run(model, START_NEGATIVE_SATURATION, elsewhere, ELSEWHERE, modelled + num_samples);
-    double misfit = noise * noise;
-    for (size_t t = 0; t < num_samples; t++) {
-        misfit += (bench->output[t] - modelled[t]) * (bench->output[t] - modelled[t]) / (double)num_samples;
-    }
+    const double misfit = noise * noise + model_mean_square(bench, modelled);
     const series_t record = {.input = bench->input,
                              .output = bench->output,
                              .carried = bench->carried,

@@ -5,9 +5,8 @@
 ///                tau_j dw/dt, at rest inside its strip it stays; tau_j = tau (1 + spread r_j / r_N): walls
 ///                that take more to move may be slower; hold as for an input_lag; the plays trail already as
 ///                the record begins, where the input has come through the range to its first sample at
-///                `approach`; of the major loop's middle, which a model's plays and nonhysteretic part share
-///                out at will, as no slow record tells them apart, the part `direct` comes at once although
-///                plays give it
+///                `approach`; of what the plays give to the major loop's middle the part `direct` comes at
+///                once: how much of the middle is plays and how much memoryless no slow record tells
 ///     widening:  r_j + coefficient |dv/dt| for every radius
 ///     diffusion: the plays see the field inside, which diffuses across a conductor (field.h)
 ///     excess:    the plays see the field less what moving walls take, coefficient * sqrt(rate) (field.h)

@@ -206,7 +206,13 @@ static double find_difference(const model_t* model, const record_t* record, doub
     for (size_t t = 0; t < num_samples; t++) {
         difference[t] = record->output[t] - model_output[t];
     }
-    const double mean = series_mean(difference, num_samples);
+    double mean = 0;
+    double measured = 0;
+    for (size_t t = 0; t < num_samples; t++) {
+        mean += record_is_carried(record, t) ? 0 : difference[t];
+        measured += record_is_carried(record, t) ? 0 : 1;
+    }
+    mean /= measured;
     for (size_t t = 0; t < num_samples; t++) {
         difference[t] -= mean;
     }

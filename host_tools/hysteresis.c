@@ -317,12 +317,17 @@ static bool has_direct(const hysteresis_t* hysteresis)
     return hysteresis->play_lag > 0.0 && hysteresis->lag_direct > 0.0;
 }
 
-/// The major loop's middle as a play of no radius lags behind it, `step` seconds on.
+/// The plays' part of the major loop's middle.
+static double plays_middle(const hysteresis_state_t* state, double seen)
+{
+    return loop_middle_at(state->hysteresis->middle, seen) - curve_value(&state->model->nonhysteretic, seen);
+}
+
+/// The same as a play of no radius lags behind it, `step` seconds on.
 static double next_middle(const hysteresis_state_t* state, double lagged, double from, double to, double step)
 {
     const lag_step_t lag = lag_step_held(step, state->hysteresis->play_lag, state->hysteresis->lag_hold);
-    const loop_middle_t* middle = state->hysteresis->middle;
-    return lag_next(lag, lagged, loop_middle_at(middle, from), loop_middle_at(middle, to));
+    return lag_next(lag, lagged, plays_middle(state, from), plays_middle(state, to));
 }
 
 /// How far increments (amplitude: the sum about its middle) scale at input v after `travel`.
@@ -356,8 +361,7 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step)
     next.correction = state->correction;
     if (has_direct(hysteresis)) {
         next.lagged_middle = next_middle(state, state->lagged_middle, state->input, next.seen, step);
-        next.ahead =
-            hysteresis->lag_direct * (loop_middle_at(hysteresis->middle, next.seen) - next.lagged_middle);
+        next.ahead = hysteresis->lag_direct * (plays_middle(state, next.seen) - next.lagged_middle);
     }
     if (differs(hysteresis->level_gain) || differs(hysteresis->wear)) {
         const double factor =
@@ -470,7 +474,7 @@ static void approach_first(hysteresis_state_t* state, start_t start)
     state->input = reference.input;
     reference_free(&reference);
     if (has_direct(hysteresis)) {
-        state->lagged_middle = loop_middle_at(hysteresis->middle, state->input);
+        state->lagged_middle = plays_middle(state, state->input);
     }
     if (is_saturated) {
         ramp_to(state, from_top ? model->input_min : model->input_max);
@@ -493,7 +497,7 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
     if (has_direct(hysteresis)) {
-        state.lagged_middle = loop_middle_at(hysteresis->middle, seen);
+        state.lagged_middle = plays_middle(&state, seen);
     }
     const bool trails = differs(hysteresis->play_lag) && hysteresis->approach > 0.0;
     if (trails) {
@@ -509,8 +513,7 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
         }
     }
     if (has_direct(hysteresis)) {
-        state.ahead =
-            hysteresis->lag_direct * (loop_middle_at(hysteresis->middle, seen) - state.lagged_middle);
+        state.ahead = hysteresis->lag_direct * (plays_middle(&state, seen) - state.lagged_middle);
     }
     state.sum = weighted_sum(model, state.memory);
     state.nonhysteretic = curve_value(&model->nonhysteretic, first_input);

@@ -96,8 +96,9 @@ typedef struct {
     double nonhysteretic;        ///< the nonhysteretic part
     double sum_middle, sum_half; ///< of what it spans between the saturations
     double correction;           ///< what increments scaled by level_gain and wear have added so far
-    double lagged_middle;        ///< the major loop's middle with play_lag behind, where lag_direct counts
-    double ahead;                ///< what lag_direct adds
+    double
+        lagged_middle; ///< the plays' middle in the major loop with play_lag behind, where lag_direct counts
+    double ahead;      ///< what lag_direct adds
 } hysteresis_state_t;
 /// At the first sample, with the input first_input.
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,

@@ -64,6 +64,16 @@ static void range_of(const double* values, size_t count, double* low, double* hi
     }
 }
 
+/// Of the record's first `count` samples.
+static size_t count_measured(const record_t* record, size_t count)
+{
+    size_t measured = 0;
+    for (size_t t = 0; t < count; t++) {
+        measured += !record_is_carried(record, t);
+    }
+    return measured;
+}
+
 /// What was put back may lie beyond what was measured, and nobody is to blame for it.
 static void measured_input_range(const record_t* record, double* low, double* high)
 {
@@ -81,10 +91,11 @@ static outcome_t check_record(problem_t* p)
 {
     const location_t where = {.file = p->record->path};
     const size_t least = LEAST_SAMPLES;
-    if (p->record->num_samples < least) {
+    const size_t measured = count_measured(p->record, p->record->num_samples);
+    if (measured < least) {
         return message_error(OUTCOME_BAD_INPUT, where,
-                             "%zu samples are too few to identify a model, expected at least %zu",
-                             p->record->num_samples, least);
+                             "%zu samples are too few to identify a model, expected at least %zu", measured,
+                             least);
     }
     double low;
     double high;
@@ -361,16 +372,6 @@ static double loop_sense(const record_t* record, size_t first)
     return area / (travel + fabs(closing));
 }
 
-/// Of the record's first `count` samples.
-static size_t count_measured(const record_t* record, size_t count)
-{
-    size_t measured = 0;
-    for (size_t t = 0; t < count; t++) {
-        measured += !record_is_carried(record, t);
-    }
-    return measured;
-}
-
 /// Figures of the finished model over the samples of the record from `first` on.
 static void measure(const problem_t* p, size_t first, identify_result_t* result)
 {
@@ -393,7 +394,7 @@ static void measure(const problem_t* p, size_t first, identify_result_t* result)
     result->relative = result->rmse / p->output_range;
     result->output_range = p->output_range;
     result->clockwise = loop_sense(record, first) > clockwise_sense * p->output_range;
-    result->monotone_floor = monotone_floor(record->input, record->output, record->num_samples, first);
+    result->monotone_floor = monotone_floor(record, first);
 }
 
 /// Refines the chosen fit on more of the record and settles what to do with its first stretch.

@@ -26,21 +26,42 @@ static void append(samples_t* samples, const scaled_t* scaled, size_t t)
     samples->index[i] = t;
 }
 
-/// Appends the block's samples of least and largest input in order of time.
+/// Of a block's samples that were measured or, otherwise, put back: the one of least and the one of largest
+/// input; both `to` where there is none.
+typedef struct {
+    size_t least, largest;
+} extremes_t;
+
+static extremes_t extremes_of(const record_t* record, size_t from, size_t to, bool carried)
+{
+    extremes_t found = {to, to};
+    for (size_t t = from; t < to; t++) {
+        if (record_is_carried(record, t) == carried) {
+            found.least =
+                found.least == to || record->input[t] < record->input[found.least] ? t : found.least;
+            found.largest =
+                found.largest == to || record->input[t] >= record->input[found.largest] ? t : found.largest;
+        }
+    }
+    return found;
+}
+
+/// Appends the block's measured samples of least and largest input in order of time, and those that were put
+/// back as far as they go beyond.
 static void append_extremes(samples_t* samples, const scaled_t* scaled, size_t from, size_t to)
 {
     const double* input = scaled->record->input;
-    size_t least = from;
-    size_t largest = from;
+    const extremes_t measured = extremes_of(scaled->record, from, to, false);
+    const extremes_t put_back = extremes_of(scaled->record, from, to, true);
+    const bool is_below =
+        put_back.least < to && (measured.least == to || input[put_back.least] < input[measured.least]);
+    const bool is_above = put_back.largest < to &&
+                          (measured.largest == to || input[put_back.largest] > input[measured.largest]);
     for (size_t t = from; t < to; t++) {
-        least = input[t] < input[least] ? t : least;
-        largest = input[t] >= input[largest] ? t : largest;
-    }
-    const size_t early = least < largest ? least : largest;
-    const size_t late = least < largest ? largest : least;
-    append(samples, scaled, early);
-    if (late > early) {
-        append(samples, scaled, late);
+        if (t == measured.least || t == measured.largest || (is_below && t == put_back.least) ||
+            (is_above && t == put_back.largest)) {
+            append(samples, scaled, t);
+        }
     }
 }
 
@@ -70,7 +91,7 @@ samples_t samples_new(const record_t* record, double centre, double half_range, 
     const scaled_t scaled = {record, centre, half_range};
     const size_t num_samples = record->num_samples;
     const size_t block = num_samples <= max_samples ? 1 : (2 * num_samples + max_samples - 1) / max_samples;
-    const size_t most = block == 1 ? num_samples : 2 * (num_samples / block + 1);
+    const size_t most = block == 1 ? num_samples : 4 * (num_samples / block + 1);
     samples_t samples = {0};
     samples.u = xmalloc(most * sizeof *samples.u);
     samples.y = xmalloc(most * sizeof *samples.y);
@@ -131,29 +152,33 @@ static double explained(const pool_t* pool, size_t count)
     return sum;
 }
 
-double monotone_floor(const double* input, const double* output, size_t num_samples, size_t first)
+double monotone_floor(const record_t* record, size_t first)
 {
-    pool_t* pool = xmalloc((num_samples + 1) * sizeof *pool);
-    double mean = 0;
-    for (size_t t = first; t < num_samples; t++) {
-        mean += output[t] / (double)(num_samples - first);
+    pool_t* pool = xmalloc((record->num_samples + 1) * sizeof *pool);
+    double sum = 0;
+    double count = 0;
+    for (size_t t = first; t < record->num_samples; t++) {
+        sum += record_is_carried(record, t) ? 0 : record->output[t];
+        count += record_is_carried(record, t) ? 0 : 1;
     }
     double left = 0;
     size_t pools = 0;
     double sign = 0;
-    for (size_t t = first; t < num_samples; t++) {
-        const double value = output[t] - mean;
-        const double step = t > first ? input[t] - input[t - 1] : 0;
+    for (size_t t = first; t < record->num_samples; t++) {
+        const double step = t > first ? record->input[t] - record->input[t - 1] : 0;
         const double direction = step > 0 ? 1 : step < 0 ? -1 : sign;
         if (direction * sign < 0) {
             left -= explained(pool, pools);
             pools = 0;
         }
         sign = direction;
-        left += value * value;
-        pools = pool_value(pool, pools, value, sign);
+        if (!record_is_carried(record, t)) {
+            const double value = record->output[t] - sum / count;
+            left += value * value;
+            pools = pool_value(pool, pools, value, sign);
+        }
     }
     left -= explained(pool, pools);
     free(pool);
-    return sqrt(fmax(left, 0) / (double)(num_samples - first));
+    return sqrt(fmax(left, 0) / count);
 }

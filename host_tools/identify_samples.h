@@ -17,9 +17,9 @@ typedef struct {
     size_t wiped;   ///< first sample after both ends of the record's input range were visited
 } samples_t;
 
-/// At most about max_samples samples: of every block of the record the ones with the least and the largest
-/// input, in their order, so that the plays see every reversal that matters to them. All that were measured
-/// are marked used.
+/// At most about max_samples samples, twice as many where many were put back: of every block of the record
+/// the ones with the least and the largest input, in their order, so that the plays see every reversal that
+/// matters to them. All that were measured are marked used.
 samples_t samples_new(const record_t* record, double centre, double half_range, size_t max_samples);
 void samples_free(samples_t* samples);
 /// Marks samples from `first` on as used, those before as not.
@@ -28,6 +28,6 @@ void samples_use_from(samples_t* samples, size_t first);
 /// RMSE below which no model can come whose output never moves against its input: the isotonic regression of
 /// each monotone stretch of the input (pool adjacent violators). Every GPI model with p >= 0, increasing
 /// envelopes and non-decreasing D is of that kind. Over samples from `first` on.
-double monotone_floor(const double* input, const double* output, size_t num_samples, size_t first);
+double monotone_floor(const record_t* record, size_t first);
 
 #endif

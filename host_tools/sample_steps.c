@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Steps enough for their median.
-enum { MOST_SORTED = 100000 };
+/// Steps enough for their median, whole runs of them: every n-th would see only one of n.
+enum { RUNS = 100, RUN = 1000 };
 /// After more sample times than this nobody knows by what way the input came.
 static const double most_steps = 8;
 /// Of the samples there are, the part that may be lost: more are no loss, the record has another rate there.
@@ -25,11 +25,14 @@ double sample_time_of(const double* time, size_t num_samples)
     if (num_samples < 2) {
         return 1;
     }
-    const size_t stride = (num_samples - 1) / MOST_SORTED + 1;
-    const size_t count = (num_samples - 1) / stride;
+    const size_t num_steps = num_samples - 1;
+    const size_t runs = num_steps <= RUNS * RUN ? 1 : RUNS;
+    const size_t length = runs == 1 ? num_steps : RUN;
+    const size_t count = runs * length;
     double* step = xmalloc(count * sizeof *step);
     for (size_t i = 0; i < count; i++) {
-        step[i] = time[i * stride + 1] - time[i * stride];
+        const size_t begin = runs == 1 ? 0 : i / length * (num_steps - length) / (runs - 1);
+        step[i] = time[begin + i % length + 1] - time[begin + i % length];
     }
     qsort(step, count, sizeof *step, ascending_order);
     const double median = step[count / 2];

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/// The median of the steps between time[num_samples], of a long record of 100,000 evenly spread ones; 1
-/// where there is none.
+/// The median of the steps between time[num_samples], of a long record of a hundred stretches
+/// of a thousand; 1 where there is none.
 double sample_time_of(const double* time, size_t num_samples);
 /// steps[num_samples], owned: how many sample times lie between a sample and the one before, where up to
 /// seven in a row are lost; 1 where none is, after a longer pause, and for times that are no multiples.

@@ -197,21 +197,27 @@ static double after_approach(const plant_t* plant, double r, double v)
     return w;
 }
 
-/// How far the major loop's middle at v is above itself with the plays' lag behind.
+/// What the plays give to the major loop's middle.
+static double plays_middle(const plant_t* plant, double v)
+{
+    return -above_middle(plant, v, 0) - nonhysteretic(plant, v);
+}
+
+/// How far that is at v above itself with the plays' lag behind.
 static double middle_ahead(plant_t* plant, double v)
 {
     const double part = plant->dt / plant->p[0];
     if (!plant->started) {
         double u = plant->model->input_max;
         double to = plant->model->input_min;
-        plant->lagged_middle = -above_middle(plant, u, 0);
+        plant->lagged_middle = plays_middle(plant, u);
         while (u > to || u < v) {
             u = approached(plant, u, &to, v);
-            plant->lagged_middle += part * (-above_middle(plant, u, 0) - plant->lagged_middle);
+            plant->lagged_middle += part * (plays_middle(plant, u) - plant->lagged_middle);
         }
     }
-    plant->lagged_middle += part * (-above_middle(plant, v, 0) - plant->lagged_middle);
-    return -above_middle(plant, v, 0) - plant->lagged_middle;
+    plant->lagged_middle += part * (plays_middle(plant, v) - plant->lagged_middle);
+    return plays_middle(plant, v) - plant->lagged_middle;
 }
 
 static void start_plays(plant_t* plant, double v)

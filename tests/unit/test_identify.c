@@ -311,10 +311,23 @@ static void test_clockwise_loop_is_recognised(void)
 /// best non-increasing 3, 1.5, 1.5, another 0.5.
 static void test_monotone_floor_is_the_isotonic_regression(void)
 {
-    static const double up_and_down[] = {0, 1, 2, 3, 2, 1, 0};
-    static const double values[] = {1, 3, 2, 4, 3, 1, 2};
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(0.5 / 4), monotone_floor(up_and_down, values, 4, 0));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(1.0 / 7), monotone_floor(up_and_down, values, 7, 0));
+    static double up_and_down[] = {0, 1, 2, 3, 2, 1, 0};
+    static double values[] = {1, 3, 2, 4, 3, 1, 2};
+    record_t all = {.num_samples = 4, .input = up_and_down, .output = values};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(0.5 / 4), monotone_floor(&all, 0));
+    all.num_samples = 7;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(1.0 / 7), monotone_floor(&all, 0));
+}
+
+/// The top and its output are made up: what is left rises and falls, and the turn is where the inputs have
+/// it.
+static void test_monotone_floor_is_that_of_measured_samples(void)
+{
+    static double up_and_down[] = {0, 1, 2, 3, 1, 0};
+    static double values[] = {1, 2, 3, 0, 2.5, 1};
+    static bool made_up[] = {false, false, false, true, false, false};
+    const record_t filled = {.num_samples = 6, .input = up_and_down, .output = values, .carried = made_up};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0, monotone_floor(&filled, 0));
 }
 
 static void test_a_model_of_the_kind_is_above_its_floor(void)
@@ -343,6 +356,33 @@ static void test_what_is_carried_is_not_fitted(void)
     // As in test_classical_model_is_recovered.
     TEST_ASSERT_TRUE(result.relative < 1e-4);
     TEST_ASSERT_EQUAL(SAMPLES - SAMPLES / 31 - (SAMPLES % 31 > 7), result.num_samples);
+}
+
+/// Ramps of 60 samples; two in a row of every ten are put back, wherever they lie in the thinned blocks. Of
+/// each block of b samples of a ramp at least 0.8 b were measured, and of those two are kept.
+static void test_thinning_keeps_measured_samples(void)
+{
+    enum { LONG = 60000, MOST = 2000 };
+    record_t filled = {.num_samples = LONG,
+                       .input = xmalloc(LONG * sizeof(double)),
+                       .output = xcalloc(LONG, sizeof(double)),
+                       .carried = xmalloc(LONG * sizeof(bool))};
+    for (size_t place = 0; place < 10; place++) {
+        for (size_t t = 0; t < LONG; t++) {
+            filled.input[t] = (double)(t % 120 < 60 ? t % 60 : 60 - t % 60) / 60;
+            filled.carried[t] = t % 10 == place || t % 10 == (place + 1) % 10;
+        }
+        samples_t samples = samples_new(&filled, 0.5, 0.5, MOST);
+        size_t used = 0;
+        for (size_t i = 0; i < samples.num_samples; i++) {
+            used += samples.used[i];
+            TEST_ASSERT_EQUAL(!filled.carried[samples.index[i]], samples.used[i]);
+            TEST_ASSERT_TRUE(i == 0 || samples.index[i] > samples.index[i - 1]);
+        }
+        TEST_ASSERT_EQUAL(MOST, used);
+        samples_free(&samples);
+    }
+    record_free(&filled);
 }
 
 static void test_records_without_information_are_refused(void)
@@ -376,6 +416,8 @@ int main(void)
     RUN_TEST(test_plays_beyond_the_excitation_are_undetermined);
     RUN_TEST(test_clockwise_loop_is_recognised);
     RUN_TEST(test_monotone_floor_is_the_isotonic_regression);
+    RUN_TEST(test_monotone_floor_is_that_of_measured_samples);
+    RUN_TEST(test_thinning_keeps_measured_samples);
     RUN_TEST(test_a_model_of_the_kind_is_above_its_floor);
     RUN_TEST(test_what_is_carried_is_not_fitted);
     RUN_TEST(test_records_without_information_are_refused);

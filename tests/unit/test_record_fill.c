@@ -1,6 +1,7 @@
 #include "model.h"
 #include "random.h"
 #include "record_fill.h"
+#include "sample_steps.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -185,6 +186,18 @@ static void test_a_record_without_times_stays(void)
     check_same();
 }
 
+/// Every fifth step double: of a long record the median is that of whole stretches, not of every fifth step.
+static void test_a_long_record_s_sample_time(void)
+{
+    enum { LONG = 450000 };
+    double* time = xmalloc(LONG * sizeof *time);
+    for (size_t t = 0; t < LONG; t++) {
+        time[t] = sample_time * (double)(t + t / 5);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * sample_time, sample_time, sample_time_of(time, LONG));
+    free(time);
+}
+
 /// A measured input at rest: what is put back lies no further out than a neighbour's step leads.
 static void test_noise_is_not_carried_away(void)
 {
@@ -232,6 +245,7 @@ int main(void)
     RUN_TEST(test_times_that_are_no_multiples_stay);
     RUN_TEST(test_another_rate_is_no_loss);
     RUN_TEST(test_a_record_without_times_stays);
+    RUN_TEST(test_a_long_record_s_sample_time);
     RUN_TEST(test_noise_is_not_carried_away);
     RUN_TEST(test_a_short_record_has_no_courses);
     return UNITY_END();

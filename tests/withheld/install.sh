@@ -7,13 +7,16 @@ complete() {
     python3 -c 'import numpy, matplotlib' 2>/dev/null
 }
 complete && exit 0
+is_debian_s() { # without one apt brings it
+    ! command -v python3 >/dev/null 2>&1 || python3 -c 'import sys; sys.exit(sys.prefix != "/usr")'
+}
 if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; then
-    if command -v python3 >/dev/null 2>&1 && [ "$(command -v python3)" != /usr/bin/python3 ]; then
-        python3 -m pip install --quiet --root-user-action=ignore numpy matplotlib || true
-    else
+    if is_debian_s; then
         apt-get update -qq
         DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
             python3 python3-numpy python3-matplotlib >/dev/null
+    else
+        PIP_ROOT_USER_ACTION=ignore python3 -m pip install --quiet numpy matplotlib || true
     fi
     complete && exit 0
 fi
