@@ -42,45 +42,6 @@ static fit_samples_t samples_from(const start_plan_t* plan, start_t start, const
                            .fraction = plan->fraction};
 }
 
-/// RMSE of the fit over the stretch before the memory is wiped out, when started from `start`.
-static double stretch_rmse(const start_plan_t* plan, const fit_t* fit, const samples_t* samples,
-                           start_t start)
-{
-    const fit_samples_t run = samples_from(plan, start, samples);
-    double* output = xmalloc(samples->num_samples * sizeof *output);
-    fit_output(fit, &run, output);
-    double sum = 0;
-    double measured = 0;
-    for (size_t i = 0; i < samples->wiped; i++) {
-        if (samples->measured[i]) {
-            sum += (output[i] - samples->y[i]) * (output[i] - samples->y[i]);
-            measured += 1;
-        }
-    }
-    free(output);
-    return sqrt(sum / fmax(measured, 1));
-}
-
-void start_try_assumptions(start_plan_t* plan, fit_t* fit, samples_t* samples)
-{
-    // The nearer end first: where both explain the stretch alike, it is the likelier past.
-    const bool low = samples->u[0] <= 0;
-    const start_t assumption[] = {low ? START_NEGATIVE_SATURATION : START_POSITIVE_SATURATION,
-                                  low ? START_POSITIVE_SATURATION : START_NEGATIVE_SATURATION};
-    double limit = 1.5 * fit->rmse;
-    for (size_t i = 0; i < 2; i++) {
-        const double rmse = samples->wiped > 0 ? stretch_rmse(plan, fit, samples, assumption[i]) : 0;
-        if (rmse <= limit) {
-            limit = 0.9 * rmse;
-            plan->start = assumption[i];
-            plan->leave_out = false;
-        }
-    }
-    if (!plan->leave_out) {
-        samples_use_from(samples, 0);
-    }
-}
-
 typedef struct {
     start_plan_t* plan;
     const fit_t* fit;
@@ -128,6 +89,53 @@ void start_estimate(start_plan_t* plan, const fit_t* fit, const samples_t* sampl
            (int)(m * NODES + 5 * m + 10 * NODES * NODES));
     set_fractions(plan, node);
     free(work);
+}
+
+/// RMSE of the fit over the stretch before the memory is wiped out, when started from `start`.
+static double stretch_rmse(const start_plan_t* plan, const fit_t* fit, const samples_t* samples,
+                           start_t start)
+{
+    const fit_samples_t run = samples_from(plan, start, samples);
+    double* output = xmalloc(samples->num_samples * sizeof *output);
+    fit_output(fit, &run, output);
+    double sum = 0;
+    double measured = 0;
+    for (size_t i = 0; i < samples->wiped; i++) {
+        if (samples->measured[i]) {
+            sum += (output[i] - samples->y[i]) * (output[i] - samples->y[i]);
+            measured += 1;
+        }
+    }
+    free(output);
+    return sqrt(sum / fmax(measured, 1));
+}
+
+void start_try_assumptions(start_plan_t* plan, fit_t* fit, samples_t* samples)
+{
+    // The nearer end first: where both explain the stretch alike, it is the likelier past.
+    const bool low = samples->u[0] <= 0;
+    const start_t assumption[] = {low ? START_NEGATIVE_SATURATION : START_POSITIVE_SATURATION,
+                                  low ? START_POSITIVE_SATURATION : START_NEGATIVE_SATURATION};
+    double rmse[] = {0, 0};
+    for (size_t i = 0; i < 2 && samples->wiped > 0; i++) {
+        rmse[i] = stretch_rmse(plan, fit, samples, assumption[i]);
+    }
+    double limit = 1.5 * fit->rmse;
+    if (fmin(rmse[0], rmse[1]) > limit) {
+        // The model itself may be off in those loops: then no past at all explains them.
+        start_estimate(plan, fit, samples);
+        limit = fmax(limit, 1.2 * stretch_rmse(plan, fit, samples, START_MODEL));
+    }
+    for (size_t i = 0; i < 2; i++) {
+        if (rmse[i] <= limit) {
+            limit = 0.9 * rmse[i];
+            plan->start = assumption[i];
+            plan->leave_out = false;
+        }
+    }
+    if (!plan->leave_out) {
+        samples_use_from(samples, 0);
+    }
 }
 
 void start_write_initial(const start_plan_t* plan, model_t* model, double first_input)

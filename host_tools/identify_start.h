@@ -18,8 +18,9 @@ typedef struct {
 void start_plan_choose(start_plan_t* plan, const samples_t* samples, size_t num_plays);
 void start_plan_free(start_plan_t* plan);
 
-/// When a saturation explains the left-out stretch as well as the fit explains the rest, uses the stretch
-/// too: plan->leave_out becomes false, plan->start the saturation, and all samples are marked used.
+/// When a saturation explains the left-out stretch as well as the fit explains the rest, or as any past
+/// would, uses the stretch too: plan->leave_out becomes false, plan->start the saturation, and all samples
+/// are marked used.
 void start_try_assumptions(start_plan_t* plan, fit_t* fit, samples_t* samples);
 
 /// Least-squares estimate of `fraction` for the present fit.

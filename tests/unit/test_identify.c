@@ -262,6 +262,21 @@ static void test_foreign_past_is_left_out(void)
     TEST_ASSERT_TRUE(result.relative < 1e-4);
 }
 
+/// A first half loop four times as noisy as the rest says nothing against the saturation it began in.
+static void test_what_no_past_explains_leaves_the_saturation(void)
+{
+    make_classical();
+    make_record(shrinking, START_NEGATIVE_SATURATION, 0.002);
+    random_t random = random_new(100);
+    for (size_t t = 0; t < SAMPLES / 18; t++) {
+        output[t] += 0.008 * random_normal(&random);
+    }
+    run_identify(IDENTIFY_LINEAR);
+    TEST_ASSERT_EQUAL(MEMORY_ASSUMED, result.memory);
+    TEST_ASSERT_EQUAL(START_NEGATIVE_SATURATION, result.start);
+    TEST_ASSERT_EQUAL(0, result.first_fitted);
+}
+
 /// The memory is wiped out only at the very end: it must be estimated, not left out.
 static void test_growing_loops_estimate_the_start(void)
 {
@@ -412,6 +427,7 @@ int main(void)
     RUN_TEST(test_result_is_always_a_valid_model);
     RUN_TEST(test_table_family_follows_a_tanh_truth);
     RUN_TEST(test_foreign_past_is_left_out);
+    RUN_TEST(test_what_no_past_explains_leaves_the_saturation);
     RUN_TEST(test_growing_loops_estimate_the_start);
     RUN_TEST(test_plays_beyond_the_excitation_are_undetermined);
     RUN_TEST(test_clockwise_loop_is_recognised);
