@@ -262,6 +262,8 @@ static void keep_fitted(const search_t* s, double* residual)
 
 /// What lmdif evaluates for: a step (1), or a difference for its derivatives.
 enum { STEP = 1 };
+/// What lmdif returns when it ends for want of evaluations.
+enum { OUT_OF_EVALUATIONS = 5 };
 
 /// Errors at all samples, but for what the nuisance explains of the fitted ones; then the price of that.
 static void residual_of(search_t* s, bool is_step, double* residual)
@@ -341,9 +343,10 @@ static void fit(search_t* search, int max_evaluations)
         double* jacobian = vectors + m;
         double* v = jacobian + m * n;
         // A wide difference step: delays, clips and steps are not smooth at the scale of rounding.
-        lmdif(minpack_residual, search, (int)m, (int)n, theta, residual, 1e-6, 1e-6, 0, max_evaluations, 1e-6,
-              v, 1, 1, 0, &evaluations, jacobian, (int)m, pivot, v + n, v + 2 * n, v + 3 * n, v + 4 * n,
-              vectors);
+        const int info = lmdif(minpack_residual, search, (int)m, (int)n, theta, residual, 1e-6, 1e-6, 0,
+                               max_evaluations, 1e-6, v, 1, 1, 0, &evaluations, jacobian, (int)m, pivot,
+                               v + n, v + 2 * n, v + 3 * n, v + 4 * n, vectors);
+        hypothesis->cut_short = info == OUT_OF_EVALUATIONS;
         for (size_t i = 0; i < n; i++) {
             *search->free[i].value = bounded_from_free(search->free[i].bounds, theta[i]);
         }
@@ -408,17 +411,20 @@ static hypothesis_t scan(const hypothesis_t* hypothesis, const gap_t* gap, int m
 /// A scan leaves the other parameters near their bounds, from where a search with one effect more hardly
 /// moves them: a fit from the inside that is as good is taken instead.
 static const double as_good = 1.001;
+/// A third of the evaluations tells which start is worth the rest.
+enum { PART_OF_START = 3 };
 
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations)
 {
     hypothesis_t best = *hypothesis;
     best.fit_rmse = HUGE_VAL;
     double to_beat = 1;
+    const int evaluations = max_evaluations / PART_OF_START;
     if (hypothesis->num_uses == 1 &&
         (hypothesis->use[0].effect->has_threshold || hypothesis->use[0].effect->num_parameters == 1)) {
         hypothesis_t neutral = *hypothesis;
         hypothesis_set_start(&neutral, gap, -1);
-        best = scan(&neutral, gap, max_evaluations);
+        best = scan(&neutral, gap, evaluations);
         to_beat = as_good;
     }
     for (int start = guessed ? -1 : 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
@@ -426,14 +432,52 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
         if (start >= 0) {
             hypothesis_set_start(&trial, gap, start);
         }
-        hypothesis_fit(&trial, gap, -1, max_evaluations);
+        hypothesis_fit(&trial, gap, -1, evaluations);
         if (trial.fit_rmse < to_beat * best.fit_rmse) {
             best = trial;
             to_beat = 1;
         }
     }
+    if (best.cut_short) {
+        hypothesis_fit(&best, gap, -1, max_evaluations);
+    }
     *hypothesis = best;
     hypothesis_predict(hypothesis, gap);
+}
+
+/// How near to a bound, over a sine, counts as at it.
+static const double at_bound = 0.98;
+
+/// Moves those parameters that are at a bound to where the first start has them; whether there are any.
+static bool leave_bounds(hypothesis_t* hypothesis, const gap_t* gap)
+{
+    bool moved = false;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        effect_use_t* use = &hypothesis->use[i];
+        for (size_t p = 0; p < use->effect->num_parameters; p++) {
+            const effect_limits_t limits = effect_use_limits(gap->run, use, p);
+            const bounds_t bounds = {limits.low, limits.high, limits.logarithmic};
+            const double start = limits.start[0];
+            if (!use->effect->parameter[p].is_unit &&
+                fabs(sin(bounded_to_free(bounds, use->parameter[p]))) > at_bound &&
+                fabs(sin(bounded_to_free(bounds, start))) < at_bound) {
+                use->parameter[p] = start;
+                moved = true;
+            }
+        }
+    }
+    return moved;
+}
+
+void hypothesis_retry_inside(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
+{
+    hypothesis_t trial = *hypothesis;
+    if (leave_bounds(&trial, gap)) {
+        hypothesis_fit(&trial, gap, -1, max_evaluations);
+        if (hypothesis_mean_square(&trial) < hypothesis_mean_square(hypothesis)) {
+            *hypothesis = trial;
+        }
+    }
 }
 
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap)

@@ -35,6 +35,7 @@ typedef struct {
     size_t num_uses; ///< 0: the plain model
     effect_use_t use[HYPOTHESIS_MAX_EFFECTS];
     double fit_rmse; ///< fitted to the whole record, the price of what the body leaves open included
+    bool cut_short;  ///< the last fit had not settled when its evaluations were used up
     bool is_another; ///< an effect's parameters make it another effect, or an answer to the input
     double block_error[HYPOTHESIS_BLOCKS]; ///< sum of squares of each block, predicted by a fit to the other
                                            ///< folds with the memory carried over; by hypothesis_judge
@@ -65,6 +66,9 @@ void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, in
 void hypothesis_fit_last(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);
 /// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
+/// A parameter at a bound hardly moves any more, though beside others it may belong elsewhere: fits once more
+/// with those from the inside, and keeps that if it is better.
+void hypothesis_retry_inside(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);
 /// Fills `predicted` for the present parameters.
 void hypothesis_predict(hypothesis_t* hypothesis, const gap_t* gap);
 /// Mean square by which it is weighed: with what the body leaves open priced, `fit_rmse` is the record's

@@ -274,14 +274,15 @@ static void try_extension(void* context, size_t index)
     go_on_while_worse(c, e);
 }
 
-/// Which mechanism of a name fits best beside another effect need not be the one that did alone.
-static void try_other_mechanisms(const candidates_t* c, const extension_t* e, hypothesis_t* best)
+/// Which mechanism of a name fits best beside other effects need not be the one that did alone.
+static void try_other_mechanisms(const candidates_t* c, size_t place, hypothesis_t* best)
 {
+    const effect_use_t found = best->use[place];
     for (size_t i = 1; i <= c->num_singles; i++) {
         const hypothesis_t* other = &c->hypothesis[i];
-        if (other->use[0].effect != e->further->use[0].effect &&
-            hypothesis_names_use(other, &e->further->use[0])) {
-            hypothesis_t trial = joined(e->base, other);
+        if (other->use[0].effect != found.effect && hypothesis_names_use(other, &found)) {
+            hypothesis_t trial = *best;
+            trial.use[place] = other->use[0];
             hypothesis_fit(&trial, c->gap, -1, brief_evaluations(&trial));
             *best = is_better_mechanism(&trial, best) ? trial : *best;
         }
@@ -304,8 +305,11 @@ static void refine(void* context, size_t index)
     const gap_t* gap = extensions->c->gap;
     hypothesis_t* hypothesis = &extensions->refined[index];
     hypothesis_t brief = extensions->extension[index].fitted;
-    try_other_mechanisms(extensions->c, &extensions->extension[index], &brief);
+    for (size_t place = brief.num_uses; place-- > 0;) {
+        try_other_mechanisms(extensions->c, place, &brief);
+    }
     hypothesis_fit(&brief, gap, -1, evaluations_of(&brief));
+    hypothesis_retry_inside(&brief, gap, evaluations_of(&brief));
     hypothesis_search(hypothesis, gap, false, evaluations_of(hypothesis));
     if (is_better_mechanism(&brief, hypothesis)) {
         adopt(hypothesis, &brief, gap);

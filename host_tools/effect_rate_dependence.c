@@ -5,17 +5,19 @@
 ///                tau_j dw/dt, at rest inside its strip it stays; tau_j = tau (1 + spread r_j / r_N): walls
 ///                that take more to move may be slower; hold as for an input_lag; the plays trail already as
 ///                the record begins, where the input has come through the range to its first sample at
-///                `approach`; of what the plays give to the major loop's middle the part `direct` comes at
-///                once: how much of the middle is plays and how much memoryless no slow record tells
+///                `approach`, from the other end, where the plays were between where a way within the range
+///                had put them (`beyond` 0) and where one from far beyond it had (1); of what the plays give
+///                to the major loop's middle the part `direct` comes at once: how much of the middle is plays
+///                and how much memoryless no slow record tells
 ///     widening:  r_j + coefficient |dv/dt| for every radius
 ///     diffusion: the plays see the field inside, which diffuses across a conductor (field.h)
 ///     excess:    the plays see the field less what moving walls take, coefficient * sqrt(rate) (field.h)
-/// tau >= 0 [s]; spread > -1, hold and direct 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure], 0 when
-/// left out; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles the
-/// largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at the
-/// mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag tells
-/// these from an input_lag. hold 0 ... 1 as for that; a diffusion's counts for an excess field behind it,
-/// too. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the input.
+/// tau >= 0 [s]; spread > -1, hold, beyond and direct 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure],
+/// 0 when left out; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles
+/// the largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at
+/// the mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag
+/// tells these from an input_lag. hold 0 ... 1 as for that; a diffusion's counts for an excess field behind
+/// it, too. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the input.
 /// Inverse: by halving, sample by sample; widening has none. Sources: viscous plays as in G. Bertotti's
 /// dynamic Preisach model, IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S. Rakheja,
 /// C.-Y. Su, Mechatronics 19 (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988)
@@ -37,8 +39,8 @@ static const effect_parameter_t widening_parameter[] = {{"coefficient", "envelop
         "hold", "1", .least = 0.0, .most = 1.0, .optional = true                                             \
     }
 
-enum { STRENGTH, SHARE, HOLD };                        // of a field
-enum { TAU, SPREAD, APPROACH, DIRECT, PLAY_LAG_HOLD }; // of a play_lag
+enum { STRENGTH, SHARE, HOLD };                                // of a field
+enum { TAU, SPREAD, APPROACH, DIRECT, PLAY_LAG_HOLD, BEYOND }; // of a play_lag
 
 static const effect_parameter_t diffusion_parameters[] = {
     {"tau", "s", AT_LEAST_0}, SHARE_PARAMETER, HOLD_PARAMETER};
@@ -107,6 +109,7 @@ static void configure_lag(const effect_run_t* run, const double* parameter, cons
     if (parameter[TAU] > 0.0) {
         hysteresis->lag_spread = parameter[SPREAD];
         hysteresis->approach = parameter[APPROACH];
+        hysteresis->beyond = parameter[BEYOND];
         hysteresis->lag_direct = parameter[DIRECT];
         hysteresis->lag_hold = parameter[PLAY_LAG_HOLD];
     }
@@ -134,6 +137,7 @@ static const effect_parameter_t play_lag_parameters[] = {
     [APPROACH] = {"approach", "input/s", AT_LEAST_0, .optional = true},
     [DIRECT] = {"direct", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true},
     [PLAY_LAG_HOLD] = HOLD_PARAMETER,
+    [BEYOND] = {"beyond", "1", .least = 0.0, .most = 1.0, .optional = true},
 };
 
 static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -142,6 +146,7 @@ static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_li
     *result = parameter == TAU        ? limits_time_constant(run)
               : parameter == SPREAD   ? limits_linear(-0.9, 3.0, 0.0, 0.3, 1.0, 0.1)
               : parameter == APPROACH ? limits_linear(0.0, fastest, 0.0, 0.0, 0.3 * fastest, 0.03 * fastest)
+              : parameter == BEYOND   ? limits_linear(0.0, 1.0, 0.0, 0.5, 0.2, 0.8)
               : parameter == DIRECT   ? limits_linear(0.0, 1.0, 0.0, 0.1, 0.3, 0.03)
                                       : hold_limits();
 }
@@ -150,6 +155,7 @@ static void play_lag_limits(const effect_run_t* run, size_t parameter, effect_li
 static void play_lag_for_another_record(double* parameter)
 {
     parameter[APPROACH] = 0.0;
+    parameter[BEYOND] = 0.0;
 }
 
 const effect_t effect_rate_dependence_play_lag = {

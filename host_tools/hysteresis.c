@@ -451,6 +451,18 @@ static void ramp_to(hysteresis_state_t* state, double to)
     state->input = to;
 }
 
+/// From where a way to this end of the range put the plays, towards where one from far beyond it had.
+static void begin_beyond(hysteresis_state_t* state, bool from_top)
+{
+    const model_t* model = state->model;
+    const strip_t strip = strip_at(model, state->input, 0.0);
+    for (size_t j = 0; j < model->num_plays; ++j) {
+        const double radius = model->radius[j];
+        const double end = from_top ? upper_end(&strip, radius) : lower_end(&strip, radius);
+        state->memory[j] += state->hysteresis->beyond * (end - state->memory[j]);
+    }
+}
+
 /// The plays as a lag leaves them behind: what came before the last turn was at leisure, for a saturation
 /// that was the other one. No column says how wide they were, and they may lie outside their strips.
 static void approach_first(hysteresis_state_t* state, start_t start)
@@ -477,6 +489,7 @@ static void approach_first(hysteresis_state_t* state, start_t start)
         state->lagged_middle = plays_middle(state, state->input);
     }
     if (is_saturated) {
+        begin_beyond(state, from_top);
         ramp_to(state, from_top ? model->input_min : model->input_max);
     }
     ramp_to(state, first);

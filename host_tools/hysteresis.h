@@ -24,6 +24,8 @@ typedef struct {
                        ///< give it without a lag, not with play_lag behind
     double approach; ///< [input/s] how fast the input came to its first sample, as plays with a lag tell; 0:
                      ///< at leisure
+    double beyond; ///< 0 ... 1: where an approach from a saturation begins, in the strip of each play at that
+                   ///< end of the range: 0, as a rise within the range leaves it; 1, as one from far beyond
     double widening; ///< envelope units per input unit/s: every radius grows by widening * |dv/dt|
     double
         level_gain; ///< the plays' sum moves 1 + level_gain * level as far, level = (v - middle) / half range

@@ -495,6 +495,27 @@ static void a_past_at_speed_needs_no_column(void)
     hysteresis_free(&hysteresis);
 }
 
+/// An approach that takes no time leaves the plays where it began: at the upper end of their strips there, or
+/// at the lower one.
+static void a_past_beyond_the_range_begins_at_the_strips_other_end(void)
+{
+    for (int beyond = 0; beyond < 2; ++beyond) {
+        const double end = beyond == 1 ? curve_value(&model.descending, model.input_max)
+                                       : curve_value(&model.ascending, model.input_max);
+        const double sign = beyond == 1 ? 1.0 : -1.0;
+        double expected = curve_value(&model.nonhysteretic, record.input[0]);
+        for (size_t j = 0; j < model.num_plays; ++j) {
+            expected += model.weight[j] * (end + sign * model.radius[j]);
+        }
+        hysteresis_t hysteresis = hysteresis_neutral();
+        hysteresis.play_lag = 0.1;
+        hysteresis.approach = 1e12;
+        hysteresis.beyond = beyond;
+        hysteresis_run(&model, START_NEGATIVE_SATURATION, &hysteresis, record.time, record.input, 1, output);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, expected, output[0]);
+    }
+}
+
 /// Without a reference the column counts from its first value, with one from there.
 static void the_reference_shifts_the_column(void)
 {
@@ -598,6 +619,7 @@ int main(void)
     RUN_TEST(a_field_inside_rises_with_the_input);
     RUN_TEST(a_diffusion_s_hold_counts);
     RUN_TEST(a_past_at_speed_needs_no_column);
+    RUN_TEST(a_past_beyond_the_range_begins_at_the_strips_other_end);
     RUN_TEST(the_reference_shifts_the_column);
     RUN_TEST(order_is_the_catalogue_s);
     RUN_TEST(inverse_gives_the_wanted_output);
