@@ -414,6 +414,15 @@ static const double as_good = 1.001;
 /// A third of the evaluations tells which start is worth the rest.
 enum { PART_OF_START = 3 };
 
+static int count_starts(const hypothesis_t* hypothesis)
+{
+    int count = 1;
+    for (size_t i = 0; i < hypothesis->num_uses; i++) {
+        count = hypothesis->use[i].effect->is_linear ? count : 3;
+    }
+    return count;
+}
+
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations)
 {
     hypothesis_t best = *hypothesis;
@@ -427,7 +436,7 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
         best = scan(&neutral, gap, evaluations);
         to_beat = as_good;
     }
-    for (int start = guessed ? -1 : 0; start < (hypothesis->num_uses > 0 ? 3 : 1); start++) {
+    for (int start = guessed ? -1 : 0; start < count_starts(hypothesis); start++) {
         hypothesis_t trial = *hypothesis;
         if (start >= 0) {
             hypothesis_set_start(&trial, gap, start);

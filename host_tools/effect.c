@@ -38,6 +38,7 @@ static const effect_t* const catalogue[] = {
     &effect_drift_spline,
     &effect_drift_fine_spline,
     &effect_drift_finest_spline,
+    &effect_drift_dense_spline,
     &effect_periodic_disturbance,
     &effect_periodic_disturbance_run_up,
     &effect_quantization,

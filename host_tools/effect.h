@@ -43,7 +43,7 @@ typedef struct {
     const everett_t* everett; ///< for searches: what a plant of Preisach's kind adds to the plays; or NULL
 } effect_run_t;
 
-enum { EFFECT_MAX_PARAMETERS = 20 };
+enum { EFFECT_MAX_PARAMETERS = 40 };
 
 /// A parameter, as it stands in the model file and in reports.
 typedef struct {
@@ -74,6 +74,7 @@ struct effect {
     bool needs_column; ///< exogenous: follows a named auxiliary column
     size_t num_parameters;
     const effect_parameter_t* parameter;
+    bool is_linear;     ///< in its parameters: a search finds the same from every start
     bool has_threshold; ///< its first parameter gives no gradient where it does not act, or a narrow valley:
                         ///< searches try values
     /// What is wrong with parameters that are each physical (tau_fast above tau_slow), or NULL. May be NULL.

@@ -38,6 +38,7 @@ extern const effect_t effect_drift_linear;
 extern const effect_t effect_drift_spline;
 extern const effect_t effect_drift_fine_spline;
 extern const effect_t effect_drift_finest_spline;
+extern const effect_t effect_drift_dense_spline;
 extern const effect_t effect_periodic_disturbance;
 extern const effect_t effect_periodic_disturbance_run_up;
 extern const effect_t effect_quantization;

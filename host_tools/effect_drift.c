@@ -5,23 +5,26 @@
 ///              duration
 ///     fine_spline: likewise at k/10
 ///     finest_spline: likewise at k/20
+///     dense_spline: likewise at k/40
 /// slope [output/s], node_k [output]. Holds for this record alone. Zero at the record's start: a constant is
 /// an offset. Spline: C. de Boor, A Practical Guide to Splines, ch. IV.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
-enum { NODES = 6, FINE_NODES = 10, FINEST_NODES = 20 };
+enum { NODES = 6, FINE_NODES = 10, FINEST_NODES = 20, DENSE_NODES = 40 };
 
 static const effect_parameter_t slope_parameter[] = {{"slope", "output/s", ANY_NUMBER}};
 
-static const effect_parameter_t node_parameters[FINEST_NODES] = {
-    {"node_1", "output", ANY_NUMBER},  {"node_2", "output", ANY_NUMBER},  {"node_3", "output", ANY_NUMBER},
-    {"node_4", "output", ANY_NUMBER},  {"node_5", "output", ANY_NUMBER},  {"node_6", "output", ANY_NUMBER},
-    {"node_7", "output", ANY_NUMBER},  {"node_8", "output", ANY_NUMBER},  {"node_9", "output", ANY_NUMBER},
-    {"node_10", "output", ANY_NUMBER}, {"node_11", "output", ANY_NUMBER}, {"node_12", "output", ANY_NUMBER},
-    {"node_13", "output", ANY_NUMBER}, {"node_14", "output", ANY_NUMBER}, {"node_15", "output", ANY_NUMBER},
-    {"node_16", "output", ANY_NUMBER}, {"node_17", "output", ANY_NUMBER}, {"node_18", "output", ANY_NUMBER},
-    {"node_19", "output", ANY_NUMBER}, {"node_20", "output", ANY_NUMBER},
+#define NODE(number)                                                                                         \
+    {                                                                                                        \
+        "node_" #number, "output", ANY_NUMBER                                                                \
+    }
+
+static const effect_parameter_t node_parameters[DENSE_NODES] = {
+    NODE(1),  NODE(2),  NODE(3),  NODE(4),  NODE(5),  NODE(6),  NODE(7),  NODE(8),  NODE(9),  NODE(10),
+    NODE(11), NODE(12), NODE(13), NODE(14), NODE(15), NODE(16), NODE(17), NODE(18), NODE(19), NODE(20),
+    NODE(21), NODE(22), NODE(23), NODE(24), NODE(25), NODE(26), NODE(27), NODE(28), NODE(29), NODE(30),
+    NODE(31), NODE(32), NODE(33), NODE(34), NODE(35), NODE(36), NODE(37), NODE(38), NODE(39), NODE(40),
 };
 
 static void slope_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -63,7 +66,7 @@ static void invert_slope(const effect_run_t* run, const double* parameter, const
 /// (second difference), by elimination.
 static void curvatures(const double* value, size_t nodes, double* m)
 {
-    double pivot[FINEST_NODES + 1] = {0};
+    double pivot[DENSE_NODES + 1] = {0};
     for (size_t k = 0; k <= nodes; ++k) {
         m[k] = 0.0;
     }
@@ -79,11 +82,11 @@ static void curvatures(const double* value, size_t nodes, double* m)
 
 static void add_spline(const effect_run_t* run, const double* node, size_t nodes, double sign, double* series)
 {
-    double value[FINEST_NODES + 1] = {0};
+    double value[DENSE_NODES + 1] = {0};
     for (size_t k = 0; k < nodes; ++k) {
         value[k + 1] = sign * node[k];
     }
-    double m[FINEST_NODES + 1];
+    double m[DENSE_NODES + 1];
     curvatures(value, nodes, m);
     const double spacing = (run->time[run->num_samples - 1] - run->time[0]) / (double)nodes;
     size_t cell = 0;
@@ -118,11 +121,13 @@ static void add_spline(const effect_run_t* run, const double* node, size_t nodes
 SPLINE(spline, NODES)
 SPLINE(fine_spline, FINE_NODES)
 SPLINE(finest_spline, FINEST_NODES)
+SPLINE(dense_spline, DENSE_NODES)
 
 const effect_t effect_drift_linear = {
     .name = "drift",
     .mechanism = "linear",
     .stage = EFFECT_SENSOR,
+    .is_linear = true,
     .num_parameters = COUNT_OF(slope_parameter),
     .parameter = slope_parameter,
     .limits = slope_limits,
@@ -134,6 +139,7 @@ const effect_t effect_drift_spline = {
     .name = "drift",
     .mechanism = "spline",
     .stage = EFFECT_SENSOR,
+    .is_linear = true,
     .num_parameters = NODES,
     .parameter = node_parameters,
     .limits = node_limits,
@@ -145,6 +151,7 @@ const effect_t effect_drift_fine_spline = {
     .name = "drift",
     .mechanism = "fine_spline",
     .stage = EFFECT_SENSOR,
+    .is_linear = true,
     .num_parameters = FINE_NODES,
     .parameter = node_parameters,
     .limits = node_limits,
@@ -157,10 +164,24 @@ const effect_t effect_drift_finest_spline = {
     .name = "drift",
     .mechanism = "finest_spline",
     .stage = EFFECT_SENSOR,
+    .is_linear = true,
     .num_parameters = FINEST_NODES,
     .parameter = node_parameters,
     .limits = node_limits,
     .apply = apply_finest_spline,
     .invert = invert_finest_spline,
     .covers = 0.8,
+};
+
+const effect_t effect_drift_dense_spline = {
+    .name = "drift",
+    .mechanism = "dense_spline",
+    .stage = EFFECT_SENSOR,
+    .is_linear = true,
+    .num_parameters = DENSE_NODES,
+    .parameter = node_parameters,
+    .limits = node_limits,
+    .apply = apply_dense_spline,
+    .invert = invert_dense_spline,
+    .covers = 2.5, // only a drift far above the noise shows so much of its course
 };

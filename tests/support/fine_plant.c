@@ -9,7 +9,7 @@ enum {
     POWER_LAGS = 60,
     LAYERS = 10,
     STATES = 6,
-    MOST_NODES = 20,
+    MOST_NODES = 40,
     MOST_UNKNOWNS = MOST_NODES + 2
 };
 
@@ -429,9 +429,10 @@ static double drift(plant_t* plant, double time)
     if (by(plant, "drift", "linear")) {
         return plant->p[0] * time;
     }
-    const size_t nodes = by(plant, "drift", "finest_spline") ? 20
-                         : by(plant, "drift", "fine_spline") ? 10
-                                                             : 6;
+    const size_t nodes = by(plant, "drift", "dense_spline")    ? 40
+                         : by(plant, "drift", "finest_spline") ? 20
+                         : by(plant, "drift", "fine_spline")   ? 10
+                                                               : 6;
     const double x = (double)nodes * time / plant->duration;
     if (!plant->started) {
         fit_spline(plant->p, nodes, plant->spline);
