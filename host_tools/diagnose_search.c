@@ -304,6 +304,14 @@ static void try_extension(void* context, size_t index)
     go_on_while_worse(c, e);
 }
 
+/// A freer mechanism in place of one that alone was the better follows what the body misses, too: it must be
+/// worth its price twice.
+static bool is_worth_changing(const hypothesis_t* trial, const hypothesis_t* best)
+{
+    const double dearer = fmax(hypothesis_price(trial) - hypothesis_price(best), 0);
+    return hypothesis_mean_square(trial) * exp(2 * dearer) < hypothesis_mean_square(best);
+}
+
 /// Which mechanism of a name fits best beside other effects need not be the one that did alone.
 static void try_other_mechanisms(const candidates_t* c, size_t place, hypothesis_t* best)
 {
@@ -314,7 +322,10 @@ static void try_other_mechanisms(const candidates_t* c, size_t place, hypothesis
             hypothesis_t trial = *best;
             trial.use[place] = other->use[0];
             hypothesis_fit(&trial, c->gap, -1, brief_evaluations(&trial));
-            *best = is_better_mechanism(&trial, best) ? trial : *best;
+            const bool is_last = place + 1 == best->num_uses;
+            if (is_last ? is_better_mechanism(&trial, best) : is_worth_changing(&trial, best)) {
+                *best = trial;
+            }
         }
     }
 }
