@@ -447,16 +447,11 @@ void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed,
             to_beat = 1;
         }
     }
+    if (best.cut_short) {
+        hypothesis_fit(&best, gap, -1, max_evaluations);
+    }
     *hypothesis = best;
     hypothesis_predict(hypothesis, gap);
-}
-
-void hypothesis_go_on(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
-{
-    if (hypothesis->cut_short) {
-        hypothesis_fit(hypothesis, gap, -1, max_evaluations);
-        hypothesis_predict(hypothesis, gap);
-    }
 }
 
 /// How near to a bound, over a sine, counts as at it.

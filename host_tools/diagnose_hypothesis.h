@@ -64,11 +64,8 @@ void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
 void hypothesis_fit(hypothesis_t* hypothesis, const gap_t* gap, int held_out, int max_evaluations);
 /// The same on all blocks with the last effect's parameters only.
 void hypothesis_fit_last(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);
-/// Fits from the present parameters when `guessed`, and from all starts, each with a third of the
-/// evaluations; keeps the best, fills `predicted`.
+/// Fits from the present parameters when `guessed`, and from all starts; keeps the best, fills `predicted`.
 void hypothesis_search(hypothesis_t* hypothesis, const gap_t* gap, bool guessed, int max_evaluations);
-/// Goes on with a search that was cut short.
-void hypothesis_go_on(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);
 /// A parameter at a bound hardly moves any more, though beside others it may belong elsewhere: fits once more
 /// with those from the inside, and keeps that if it is better.
 void hypothesis_retry_inside(hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations);

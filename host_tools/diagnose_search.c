@@ -14,10 +14,6 @@ enum { ITERATIONS = 20, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6
 /// A fit this much above what it contains has not yet arrived; below, there is nothing to arrive at.
 static const double hardly_worse = 1.001;
 
-/// A single that leaves so many times the best one's mean square is not fitted to the last digit: beside
-/// others it is fitted anew.
-static const double far_behind = 4;
-
 static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_uses)
 {
     hypothesis_t* hypothesis = &c->hypothesis[c->count++];
@@ -69,29 +65,6 @@ static void try_single(void* context, size_t index)
     hypothesis_search(hypothesis, c->gap, guessed, evaluations_of(hypothesis));
 }
 
-static double least_mean_square(const candidates_t* c)
-{
-    double least = HUGE_VAL;
-    for (size_t i = 1; i <= c->num_singles; i++) {
-        least = fmin(least, hypothesis_mean_square(&c->hypothesis[i]));
-    }
-    return least;
-}
-
-typedef struct {
-    const candidates_t* c;
-    double most; ///< mean square
-} promising_t;
-
-static void go_on_with_single(void* context, size_t index)
-{
-    const promising_t* promising = context;
-    hypothesis_t* hypothesis = &promising->c->hypothesis[index + 1];
-    if (hypothesis_mean_square(hypothesis) <= promising->most) {
-        hypothesis_go_on(hypothesis, promising->c->gap, evaluations_of(hypothesis));
-    }
-}
-
 void candidates_add_singles(candidates_t* c)
 {
     const record_t* record = c->gap->run->record;
@@ -105,10 +78,7 @@ void candidates_add_singles(candidates_t* c)
         }
     }
     c->num_singles = c->count - 1;
-    parallel_for(c->num_singles, c->num_threads, try_single, c, (parallel_progress_t){"diagnose", 0, 0.35});
-    promising_t promising = {c, far_behind * least_mean_square(c)};
-    parallel_for(c->num_singles, c->num_threads, go_on_with_single, &promising,
-                 (parallel_progress_t){"diagnose", 0.35, 0.4});
+    parallel_for(c->num_singles, c->num_threads, try_single, c, (parallel_progress_t){"diagnose", 0, 0.4});
 }
 
 static int by_mean_square(const void* a, const void* b)
@@ -352,7 +322,6 @@ static void refine(void* context, size_t index)
     hypothesis_fit(&brief, gap, -1, evaluations_of(&brief));
     hypothesis_retry_inside(&brief, gap, evaluations_of(&brief));
     hypothesis_search(hypothesis, gap, false, evaluations_of(hypothesis));
-    hypothesis_go_on(hypothesis, gap, evaluations_of(hypothesis));
     if (is_better_mechanism(&brief, hypothesis)) {
         adopt(hypothesis, &brief, gap);
     }
