@@ -1,6 +1,7 @@
 #include "diagnose_hypothesis.h"
 
 #include "bounded.h"
+#include "extremes.h"
 #include <cminpack.h>
 #include <math.h>
 #include <stdlib.h>
@@ -271,8 +272,11 @@ static void residual_of(search_t* s, bool is_step, double* residual)
     const size_t n = s->gap->run->num_samples;
     simulate(s, is_step);
     for (size_t t = 0; t < n; t++) {
-        const double error = s->simulated[t] - s->gap->output[t];
-        residual[t] = error - fmin(fmax(error, -s->gap->dead_zone), s->gap->dead_zone);
+        residual[t] = s->simulated[t] - s->gap->output[t];
+    }
+    const double dead_zone = s->gap->dead_zone;
+    for (size_t t = 0; dead_zone > 0 && t < n; t++) {
+        residual[t] -= smaller(larger(residual[t], -dead_zone), dead_zone);
     }
     if (s->filter->nuisance->count > 0) {
         // The nuisance is found on what is fitted and taken out everywhere.

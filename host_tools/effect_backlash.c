@@ -40,13 +40,15 @@ static double driven(const double* parameter, lag_step_t contact, double from, d
 static void apply(const effect_run_t* run, const double* parameter, const double* column, double* series)
 {
     (void)column;
+    lag_kept_t kept = {0};
     double from = run->num_samples > 0 ? series[0] : 0.0;
     double z = from;
     double b = from + 0.5 * parameter[START] * parameter[WIDTH];
     for (size_t i = 0; i < run->num_samples; ++i) {
         const double y = series[i];
         if (i > 0) {
-            const lag_step_t contact = lag_step(run->time[i] - run->time[i - 1], parameter[COMPLIANCE]);
+            const double step = run->time[i] - run->time[i - 1];
+            const lag_step_t contact = lag_step_kept(&kept, step, parameter[COMPLIANCE], 0.0);
             b = driven(parameter, contact, from, y, &z, b);
         }
         series[i] = b + y - z;
@@ -68,12 +70,14 @@ static double reaching(const double* parameter, lag_step_t contact, double from,
 
 static void invert_giving(const effect_run_t* run, const double* parameter, double* series)
 {
+    lag_kept_t kept = {0};
     double from = run->num_samples > 0 ? series[0] - 0.5 * parameter[START] * parameter[WIDTH] : 0.0;
     double z = from;
     double b = run->num_samples > 0 ? series[0] : 0.0;
     for (size_t i = 0; i < run->num_samples; ++i) {
         if (i > 0) {
-            const lag_step_t contact = lag_step(run->time[i] - run->time[i - 1], parameter[COMPLIANCE]);
+            const double step = run->time[i] - run->time[i - 1];
+            const lag_step_t contact = lag_step_kept(&kept, step, parameter[COMPLIANCE], 0.0);
             const double y = reaching(parameter, contact, from, z, b, series[i]);
             b = driven(parameter, contact, from, y, &z, b);
             from = y;

@@ -144,23 +144,30 @@ static void set_step(creep_t* creep, double step)
     }
 }
 
-/// One step either way: the output for `given` as input or, inverse, the input for `given` as output. The
-/// output is still + gain * input with what the lags bring along in `still`.
-static double creep_step(creep_t* creep, double step, double given, bool inverse)
+/// The input that gives an output: still + gain * input with what the lags bring along in `still`.
+static double input_for(const creep_t* creep, double output)
 {
     double still = 0.0;
     double gain = creep->direct;
-    set_step(creep, step);
     for (size_t k = 0; k < creep->num_lags; ++k) {
         still += creep->share[k] * lag_next(creep->lag[k], creep->state[k], creep->input, 0.0);
         gain += creep->share[k] * creep->lag[k].ramp;
     }
-    const double input = inverse ? (given - still) / gain : given;
+    return (output - still) / gain;
+}
+
+/// One step either way: the output for `given` as input or, inverse, the input for `given` as output.
+static double creep_step(creep_t* creep, double step, double given, bool inverse)
+{
+    set_step(creep, step);
+    const double input = inverse ? input_for(creep, given) : given;
+    double output = creep->direct * input;
     for (size_t k = 0; k < creep->num_lags; ++k) {
         creep->state[k] = lag_next(creep->lag[k], creep->state[k], creep->input, input);
+        output += creep->share[k] * creep->state[k];
     }
     creep->input = input;
-    return inverse ? input : still + gain * input;
+    return inverse ? input : output;
 }
 
 static void run_creep(const effect_run_t* run, creep_t creep, bool inverse, double* series)

@@ -1,5 +1,6 @@
 #include "effect_lag.h"
 #include "effect_limits.h"
+#include "extremes.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,23 +76,37 @@ void series_invert(const effect_run_t* run, const double* parameter, series_map_
 static double tau_at(const double* lag, double value)
 {
     const bool grows = fabs(lag[LAG_GROWTH]) > 0.0;
-    const double level = grows ? fmin(fmax((value - lag[LAG_MIDDLE]) / lag[LAG_HALF], -1.0), 1.0) : 0.0;
+    const double level = grows ? smaller(larger((value - lag[LAG_MIDDLE]) / lag[LAG_HALF], -1.0), 1.0) : 0.0;
     return lag[LAG_TAU] * (1.0 + lag[LAG_GROWTH] * level);
+}
+
+static void series_even_lag(const effect_run_t* run, const double* lag, double* series)
+{
+    lag_kept_t kept = {0};
+    double from = run->num_samples > 0 ? series[0] : 0.0;
+    for (size_t i = 1; i < run->num_samples; ++i) {
+        const double step = run->time[i] - run->time[i - 1];
+        const double to = series[i];
+        series[i] =
+            lag_next(lag_step_kept(&kept, step, lag[LAG_TAU], lag[LAG_HOLD]), series[i - 1], from, to);
+        from = to;
+    }
 }
 
 void series_lag(const effect_run_t* run, const double* lag, double* series)
 {
-    const bool grows = fabs(lag[LAG_GROWTH]) > 0.0;
+    if (!(fabs(lag[LAG_GROWTH]) > 0.0)) {
+        series_even_lag(run, lag, series);
+        return;
+    }
     double from = run->num_samples > 0 ? series[0] : 0.0;
     for (size_t i = 1; i < run->num_samples; ++i) {
         const double step = run->time[i] - run->time[i - 1];
         const double state = series[i - 1];
         const double to = series[i];
         series[i] = lag_next(lag_step_held(step, tau_at(lag, state), lag[LAG_HOLD]), state, from, to);
-        if (grows) {
-            const double half_way = 0.5 * (state + series[i]);
-            series[i] = lag_next(lag_step_held(step, tau_at(lag, half_way), lag[LAG_HOLD]), state, from, to);
-        }
+        const double half_way = 0.5 * (state + series[i]);
+        series[i] = lag_next(lag_step_held(step, tau_at(lag, half_way), lag[LAG_HOLD]), state, from, to);
         from = to;
     }
 }

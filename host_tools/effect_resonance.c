@@ -49,6 +49,7 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
 
 /// What a step of the free mode does to (e, e'/w).
 typedef struct {
+    double step;         ///< [s]
     double cosine, sine; ///< e^(-damping w t) cos(w_d t), e^(-damping w t) sin(w_d t) / sqrt(1 - damping^2)
 } rotation_t;
 
@@ -56,7 +57,7 @@ static rotation_t rotation(double w, double damping, double step)
 {
     const double root = sqrt(1.0 - damping * damping);
     const double decay = exp(-damping * w * step);
-    return (rotation_t){decay * cos(w * root * step), decay * sin(w * root * step) / root};
+    return (rotation_t){step, decay * cos(w * root * step), decay * sin(w * root * step) / root};
 }
 
 static void apply_series(const effect_run_t* run, const double* parameter, double* series)
@@ -66,6 +67,7 @@ static void apply_series(const effect_run_t* run, const double* parameter, doubl
     double before = run->num_samples > 0 ? series[0] : 0.0;
     double place = before;
     double speed = 0.0; // y'/w
+    rotation_t turn = {0};
     for (size_t i = 1; i < run->num_samples; ++i) {
         const double step = run->time[i] - run->time[i - 1];
         const double begin = before + parameter[HOLD] * (series[i] - before);
@@ -74,7 +76,7 @@ static void apply_series(const effect_run_t* run, const double* parameter, doubl
         const double slope = (end - begin) / (w * step);
         const double e = place - begin + 2.0 * damping * slope;
         const double f = speed - slope;
-        const rotation_t turn = rotation(w, damping, step);
+        turn = lag_is_same_step(step, turn.step) ? turn : rotation(w, damping, step);
         place = end - 2.0 * damping * slope + turn.cosine * e + turn.sine * (damping * e + f);
         speed = slope + turn.cosine * f - turn.sine * (e + damping * f);
         before = series[i];

@@ -62,13 +62,14 @@ static const double most_shrink = 2.0;
 static void warm(const effect_run_t* run, const double* parameter, bool squared, double* series)
 {
     const double middle = 0.5 * (run->output_min + run->output_max);
+    lag_kept_t kept = {0};
     double heat = 0.0;
     double before = run->num_samples > 0 ? series[0] : 0.0;
     for (size_t i = 1; i < run->num_samples; ++i) {
         const double step = run->time[i] - run->time[i - 1];
         const double rate = fabs(series[i] - before) / step;
         const double power = squared ? rate * rate : rate;
-        heat = lag_next(lag_step(step, parameter[TAU]), heat, power, power);
+        heat = lag_next(lag_step_kept(&kept, step, parameter[TAU], 0.0), heat, power, power);
         before = series[i];
         const double shrink = fmin(fmax(parameter[GAIN] * heat, -most_shrink), most_shrink);
         series[i] = middle + exp(-shrink) * (series[i] - middle) + parameter[OFFSET] * heat;

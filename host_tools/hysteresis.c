@@ -1,4 +1,6 @@
 #include "hysteresis.h"
+
+#include "extremes.h"
 #include "lag_step.h"
 #include "reference.h"
 #include <float.h>
@@ -60,7 +62,7 @@ bool hysteresis_is_neutral(const hysteresis_t* hysteresis)
 static double level(const model_t* model, double v)
 {
     const double half = 0.5 * (model->input_max - model->input_min);
-    return fmin(fmax((v - model->input_min) / half - 1.0, -1.0), 1.0);
+    return smaller(larger((v - model->input_min) / half - 1.0, -1.0), 1.0);
 }
 
 /// The middle and half of what the plays' sum spans between the saturations.
@@ -82,18 +84,6 @@ static double weighted_sum(const model_t* model, const double* memory)
         sum += model->weight[j] * memory[j];
     }
     return sum;
-}
-
-/// Of finite numbers: fmax and fmin, which mind NaN, are calls, and these stand where most of a search's time
-/// goes.
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-static inline double smaller(double a, double b)
-{
-    return a < b ? a : b;
 }
 
 /// Both envelopes at one end of a step, and what the radii grow by there.
@@ -163,16 +153,29 @@ static double lagged(double w, double radius, const strip_t* from, const strip_t
     return pulled_up(w, low[0], low[1], step, lag);
 }
 
-/// Eq. (6) where the radii are the model's own. Where they change, a play may also be pushed while the input
-/// holds or by the strip's other side.
-static double moved(double w, double radius, const strip_t* to, int direction, bool own_radii)
+/// Where radii change, a play may also be pushed while the input holds or by the strip's other side.
+static double moved_between(double w, double radius, const strip_t* to, int direction)
 {
-    const double low = direction >= 0 || !own_radii ? lower_end(to, radius) : w;
-    const double high = direction <= 0 || !own_radii ? upper_end(to, radius) : w;
-    if (direction == 0 && own_radii) {
-        return w;
-    }
+    const double low = lower_end(to, radius);
+    const double high = upper_end(to, radius);
     return direction < 0 ? smaller(high, larger(low, w)) : larger(low, smaller(high, w));
+}
+
+/// Eq. (6).
+static void move_own_radii(const model_t* model, double v, int direction, const double* before,
+                           double* memory)
+{
+    if (direction == 0) {
+        memcpy(memory, before, model->num_plays * sizeof *memory);
+        return;
+    }
+    const double envelope = curve_value(direction > 0 ? &model->ascending : &model->descending, v);
+    for (size_t j = 0; direction > 0 && j < model->num_plays; ++j) {
+        memory[j] = larger(before[j], envelope - model->radius[j]);
+    }
+    for (size_t j = 0; direction < 0 && j < model->num_plays; ++j) {
+        memory[j] = smaller(before[j], envelope + model->radius[j]);
+    }
 }
 
 static strip_t strip_between(const strip_t* from, const strip_t* to, double part)
@@ -204,28 +207,54 @@ static const double* missing_of(const hysteresis_state_t* state, double step)
     return missing;
 }
 
-static void move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
+/// The plays with a lag; returns the strip there.
+static strip_t trail(const hysteresis_state_t* state, double v, double from_extra, double to_extra,
+                     double step, double* memory)
 {
     const model_t* model = state->model;
-    const hysteresis_t* hysteresis = state->hysteresis;
-    const double* width = hysteresis->width;
-    const double speed = hysteresis->widening * fabs(v - state->input) / step;
-    const strip_t from = strip_at(model, state->input, speed + (width != NULL ? width[state->sample] : 0.0));
-    const strip_t to = strip_at(model, v, speed + (width != NULL ? width[state->sample + 1] : 0.0));
     const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
-    const bool own_radii = width == NULL && !differs(hysteresis->widening);
-    if (!(hysteresis->play_lag > 0.0)) {
-        for (size_t j = 0; j < model->num_plays; ++j) {
-            memory[j] = moved(state->memory[j], model->radius[j], &to, direction, own_radii);
-        }
-        return;
-    }
-    const strip_t held = strip_between(&from, &to, hysteresis->lag_hold);
+    const strip_t from = {state->ascending, state->descending, from_extra};
+    const strip_t to =
+        direction == 0 ? (strip_t){from.ascending, from.descending, to_extra} : strip_at(model, v, to_extra);
+    const strip_t held = strip_between(&from, &to, state->hysteresis->lag_hold);
     const double* missing = missing_of(state, step);
     for (size_t j = 0; j < model->num_plays; ++j) {
         const play_lag_t lag = {play_lag_time(state, j), missing[j]};
         memory[j] = lagged(state->memory[j], model->radius[j], &held, &to, direction, step, lag);
     }
+    return to;
+}
+
+/// Returns the strip there where the plays have a lag: the next step's begin.
+static strip_t move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
+{
+    const model_t* model = state->model;
+    const hysteresis_t* hysteresis = state->hysteresis;
+    const double* width = hysteresis->width;
+    const double speed = hysteresis->widening * fabs(v - state->input) / step;
+    const double from_extra = speed + (width != NULL ? width[state->sample] : 0.0);
+    const double to_extra = speed + (width != NULL ? width[state->sample + 1] : 0.0);
+    const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
+    if (hysteresis->play_lag > 0.0) {
+        return trail(state, v, from_extra, to_extra, step, memory);
+    }
+    if (width == NULL && !differs(hysteresis->widening)) {
+        move_own_radii(model, v, direction, state->memory, memory);
+        return (strip_t){0};
+    }
+    const strip_t to = strip_at(model, v, to_extra);
+    for (size_t j = 0; j < model->num_plays; ++j) {
+        memory[j] = moved_between(state->memory[j], model->radius[j], &to, direction);
+    }
+    return (strip_t){0};
+}
+
+/// The input's new place, and the strip there.
+static void come_to(hysteresis_state_t* state, double input, const strip_t* strip)
+{
+    state->input = input;
+    state->ascending = strip->ascending;
+    state->descending = strip->descending;
 }
 
 /// A command on its way to the plays.
@@ -266,7 +295,7 @@ static double shift(const hysteresis_state_t* state, const arrival_t* to, double
     double seen = to->seen;
     if (differs(hysteresis->moving) && state->sum_half > 0.0) {
         const double half_range = 0.5 * (state->model->input_max - state->model->input_min);
-        const double part = fmin(fmax((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
+        const double part = smaller(larger((sum - state->sum_middle) / state->sum_half, -1.0), 1.0);
         seen += hysteresis->moving * half_range * part;
     }
     if (differs(hysteresis->remanence_field)) {
@@ -292,7 +321,7 @@ static double shifted(const hysteresis_state_t* state, const arrival_t* to, doub
     double before = seen;
     double image_before = seen;
     for (int i = 0; i < ITERATIONS; ++i) {
-        move_plays(state, seen, step, scratch);
+        (void)move_plays(state, seen, step, scratch);
         const double image = shift(state, to, seen, weighted_sum(model, scratch));
         if (fabs(image - seen) <= tolerance) {
             return image;
@@ -308,8 +337,8 @@ static double shifted(const hysteresis_state_t* state, const arrival_t* to, doub
 
 /// What a step leads to, beside the plays' memory.
 typedef struct {
-    field_state_t field;
-    double seen, nonhysteretic, travel, sum, correction, lagged_middle, ahead;
+    strip_t strip; ///< where the plays have a lag
+    double seen, nonhysteretic, travel, sum, correction, middle, lagged_middle, ahead;
 } outlook_t;
 
 static bool has_direct(const hysteresis_t* hysteresis)
@@ -323,11 +352,11 @@ static double plays_middle(const hysteresis_state_t* state, double seen)
     return loop_middle_at(state->hysteresis->middle, seen) - curve_value(&state->model->nonhysteretic, seen);
 }
 
-/// The same as a play of no radius lags behind it, `step` seconds on.
-static double next_middle(const hysteresis_state_t* state, double lagged, double from, double to, double step)
+/// The same, now at `middle`, as a play of no radius lags behind it, `step` seconds on.
+static double next_middle(const hysteresis_state_t* state, double middle, double step)
 {
     const lag_step_t lag = lag_step_held(step, state->hysteresis->play_lag, state->hysteresis->lag_hold);
-    return lag_next(lag, lagged, plays_middle(state, from), plays_middle(state, to));
+    return lag_next(lag, state->lagged_middle, state->middle, middle);
 }
 
 /// How far increments (amplitude: the sum about its middle) scale at input v after `travel`.
@@ -345,23 +374,28 @@ static double amplitude_factor(const hysteresis_state_t* state, double v, double
     return (1.0 + hysteresis->level_product * level(state->model, v)) * exp(-hysteresis->fade * spans);
 }
 
-/// The next sample, its memory into scratch.
-static outlook_t look(const hysteresis_state_t* state, double v, double step)
+/// The next sample, its memory into scratch; its field where one lags.
+static outlook_t look(const hysteresis_state_t* state, double v, double step, field_state_t* field)
 {
     const hysteresis_t* hysteresis = state->hysteresis;
     double* scratch = state->memory + state->model->num_plays;
-    outlook_t next = {.field = field_next(&hysteresis->field, &state->field, v, step)};
-    const arrival_t to = {v, next.field.seen,
-                          hysteresis_seen(hysteresis, state->model, state->sample + 1, next.field.seen)};
+    outlook_t next = {0};
+    double inside = v;
+    if (!field_is_neutral(&hysteresis->field)) {
+        *field = field_next(&hysteresis->field, &state->field, v, step);
+        inside = field->seen;
+    }
+    const arrival_t to = {v, inside, hysteresis_seen(hysteresis, state->model, state->sample + 1, inside)};
     next.seen = shifted(state, &to, step);
     next.nonhysteretic = nonhysteretic_at(state, &to, next.seen);
-    move_plays(state, next.seen, step, scratch);
+    next.strip = move_plays(state, next.seen, step, scratch);
     next.travel = state->travel + fabs(v - state->command);
     next.sum = weighted_sum(state->model, scratch);
     next.correction = state->correction;
     if (has_direct(hysteresis)) {
-        next.lagged_middle = next_middle(state, state->lagged_middle, state->input, next.seen, step);
-        next.ahead = hysteresis->lag_direct * (plays_middle(state, next.seen) - next.lagged_middle);
+        next.middle = plays_middle(state, next.seen);
+        next.lagged_middle = next_middle(state, next.middle, step);
+        next.ahead = hysteresis->lag_direct * (next.middle - next.lagged_middle);
     }
     if (differs(hysteresis->level_gain) || differs(hysteresis->wear)) {
         const double factor =
@@ -432,6 +466,17 @@ static reference_t past_of(const model_t* model, start_t start, const hysteresis
     return reference;
 }
 
+/// At rest at an input.
+static void begin_at(hysteresis_state_t* state, double input)
+{
+    const strip_t strip = strip_at(state->model, input, 0.0);
+    come_to(state, input, &strip);
+    if (has_direct(state->hysteresis)) {
+        state->middle = plays_middle(state, input);
+        state->lagged_middle = state->middle;
+    }
+}
+
 /// Plays with a lag on an even ramp from where they are, at the hysteresis' approach.
 static void ramp_to(hysteresis_state_t* state, double to)
 {
@@ -440,13 +485,15 @@ static void ramp_to(hysteresis_state_t* state, double to)
     const double step = fabs(to - from) / state->hysteresis->approach / STEPS;
     for (int k = 1; k <= STEPS && step > 0.0; ++k) {
         const double next = from + (to - from) * k / STEPS;
-        move_plays(state, next, step, state->memory + state->model->num_plays);
+        const strip_t strip = move_plays(state, next, step, state->memory + state->model->num_plays);
         memcpy(state->memory, state->memory + state->model->num_plays,
                state->model->num_plays * sizeof(double));
         if (has_direct(state->hysteresis)) {
-            state->lagged_middle = next_middle(state, state->lagged_middle, state->input, next, step);
+            const double middle = plays_middle(state, next);
+            state->lagged_middle = next_middle(state, middle, step);
+            state->middle = middle;
         }
-        state->input = next;
+        come_to(state, next, &strip);
     }
     state->input = to;
 }
@@ -483,11 +530,8 @@ static void approach_first(hysteresis_state_t* state, start_t start)
                                                                 hysteresis->turn[hysteresis->num_turns - 1])
                                                       : reference_start(model, before);
     memcpy(state->memory, reference.memory, model->num_plays * sizeof(double));
-    state->input = reference.input;
+    begin_at(state, reference.input);
     reference_free(&reference);
-    if (has_direct(hysteresis)) {
-        state->lagged_middle = plays_middle(state, state->input);
-    }
     if (is_saturated) {
         begin_beyond(state, from_top);
         ramp_to(state, from_top ? model->input_min : model->input_max);
@@ -503,15 +547,12 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
     reference_t reference = past_of(model, start, hysteresis, seen);
     hysteresis_state_t state = {.model = model,
                                 .hysteresis = hysteresis,
-                                .input = seen,
                                 .command = first_input,
                                 .field = field_start(first_input),
                                 .memory = xcalloc(3 * model->num_plays + 1, sizeof(double))};
     memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
     reference_free(&reference);
-    if (has_direct(hysteresis)) {
-        state.lagged_middle = plays_middle(&state, seen);
-    }
+    begin_at(&state, seen);
     const bool trails = differs(hysteresis->play_lag) && hysteresis->approach > 0.0;
     if (trails) {
         approach_first(&state, start);
@@ -522,11 +563,11 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
     if (hysteresis->width != NULL && !trails) {
         const strip_t strip = strip_at(model, seen, hysteresis->width[0]);
         for (size_t j = 0; j < model->num_plays; ++j) {
-            state.memory[j] = moved(state.memory[j], model->radius[j], &strip, 0, false);
+            state.memory[j] = moved_between(state.memory[j], model->radius[j], &strip, 0);
         }
     }
     if (has_direct(hysteresis)) {
-        state.ahead = hysteresis->lag_direct * (plays_middle(&state, seen) - state.lagged_middle);
+        state.ahead = hysteresis->lag_direct * (state.middle - state.lagged_middle);
     }
     state.sum = weighted_sum(model, state.memory);
     state.nonhysteretic = curve_value(&model->nonhysteretic, first_input);
@@ -554,16 +595,20 @@ double hysteresis_output(const hysteresis_state_t* state)
 
 double hysteresis_step(hysteresis_state_t* state, double input, double step)
 {
-    const outlook_t next = look(state, input, step);
+    field_state_t field;
+    const outlook_t next = look(state, input, step, &field);
     memcpy(state->memory, state->memory + state->model->num_plays, state->model->num_plays * sizeof(double));
     state->sample += 1;
-    state->input = next.seen;
+    come_to(state, next.seen, &next.strip);
     state->command = input;
-    state->field = next.field;
+    if (!field_is_neutral(&state->hysteresis->field)) {
+        state->field = field;
+    }
     state->travel = next.travel;
     state->sum = next.sum;
     state->nonhysteretic = next.nonhysteretic;
     state->correction = next.correction;
+    state->middle = next.middle;
     state->lagged_middle = next.lagged_middle;
     state->ahead = next.ahead;
     return output_at(state, input, &next);
@@ -571,7 +616,8 @@ double hysteresis_step(hysteresis_state_t* state, double input, double step)
 
 static double look_output(const hysteresis_state_t* state, double v, double step)
 {
-    const outlook_t next = look(state, v, step);
+    field_state_t field;
+    const outlook_t next = look(state, v, step, &field);
     return output_at(state, v, &next);
 }
 

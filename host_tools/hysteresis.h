@@ -89,18 +89,19 @@ typedef struct {
     const hysteresis_t* hysteresis;
     double* memory; ///< [3 num_plays + 1] the states, scratch, what each play's lag leaves out of the last
                     ///< step, and that step
-    field_state_t field; ///< the input as it comes to the plays
-    size_t sample;       ///< the present sample's index
-    double input;        ///< what the plays see
+    field_state_t field;          ///< the input as it comes to the plays
+    size_t sample;                ///< the present sample's index
+    double input;                 ///< what the plays see
+    double ascending, descending; ///< the envelopes there, where the plays have a lag
     double travel;
     double command;              ///< the input before field and mean field
     double sum;                  ///< of weight * state
     double nonhysteretic;        ///< the nonhysteretic part
     double sum_middle, sum_half; ///< of what it spans between the saturations
     double correction;           ///< what increments scaled by level_gain and wear have added so far
-    double
-        lagged_middle; ///< the plays' middle in the major loop with play_lag behind, where lag_direct counts
-    double ahead;      ///< what lag_direct adds
+    double middle;               ///< the plays' middle in the major loop, where lag_direct counts
+    double lagged_middle;        ///< the same with play_lag behind
+    double ahead;                ///< what lag_direct adds
 } hysteresis_state_t;
 /// At the first sample, with the input first_input.
 hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,

@@ -26,6 +26,14 @@ lag_step_t lag_step_held(double step, double tau, double hold)
     return lag;
 }
 
+lag_step_t lag_step_kept(lag_kept_t* kept, double step, double tau, double hold)
+{
+    if (!lag_is_same_step(step, kept->step)) {
+        *kept = (lag_kept_t){step, lag_step_held(step, tau, hold)};
+    }
+    return kept->lag;
+}
+
 double lag_next(lag_step_t lag, double state, double from, double to)
 {
     return lag.decay * state + (1.0 - lag.decay) * from + lag.ramp * (to - from);

@@ -16,6 +16,13 @@ lag_step_t lag_step(double step, double tau);
 /// The same where the input does not go straight between the samples: hold 1, it is at once where the next
 /// sample has it; -1, it stays until then; 0, straight.
 lag_step_t lag_step_held(double step, double tau, double hold);
+/// A lag's step, set up once for an even clock; starts as {0}.
+typedef struct {
+    double step; ///< [s] that `lag` is for
+    lag_step_t lag;
+} lag_kept_t;
+/// lag_step_held for a tau and a hold that are the same at each call.
+lag_step_t lag_step_kept(lag_kept_t* kept, double step, double tau, double hold);
 double lag_next(lag_step_t lag, double state, double from, double to);
 
 #endif

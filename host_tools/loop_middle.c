@@ -1,5 +1,6 @@
 #include "loop_middle.h"
 
+#include "extremes.h"
 #include "output_range.h"
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +65,7 @@ void loop_middle_free(loop_middle_t* middle)
 
 static double at(const double* node, double place)
 {
-    const size_t cell = (size_t)fmin(fmax(place, 0), CELLS - 1);
+    const size_t cell = (size_t)smaller(larger(place, 0), CELLS - 1);
     return node[cell] + (place - (double)cell) * (node[cell + 1] - node[cell]);
 }
 
@@ -83,5 +84,5 @@ double loop_middle_remanence(const loop_middle_t* middle, double v, double y)
     if (!(middle->half_span > 0)) {
         return 0;
     }
-    return fmin(fmax((y - loop_middle_at(middle, v)) / middle->half_span, -1), 1);
+    return smaller(larger((y - loop_middle_at(middle, v)) / middle->half_span, -1), 1);
 }
