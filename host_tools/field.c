@@ -17,27 +17,19 @@ field_state_t field_start(double input)
     return state;
 }
 
-/// The modes' lags: set up once for an even clock.
-static void set_step(const field_t* field, const field_state_t* from, field_state_t* to, double step)
-{
-    const bool is_set = lag_is_same_step(step, from->step);
-    to->step = is_set ? from->step : step;
-    for (size_t k = 0; k < FIELD_MODES; k++) {
-        const double odd = 2 * (double)k + 1;
-        to->lag[k] = is_set ? from->lag[k] : lag_step_held(step, field->diffusion / (odd * odd), field->hold);
-    }
-}
-
-static void diffuse(const field_t* field, const field_state_t* from, field_state_t* to, double step)
+/// The mean across the lamination when the input has moved.
+static double diffuse(const field_t* field, field_state_t* state, double input, double step)
 {
     static const double pi = 3.14159265358979323846;
-    to->diffused = to->input;
-    set_step(field, from, to, step);
+    double diffused = input;
     for (size_t k = 0; k < FIELD_MODES; k++) {
         const double odd = 2 * (double)k + 1;
-        to->mode[k] = lag_next(to->lag[k], from->mode[k], from->input, to->input);
-        to->diffused += 8 / (pi * pi * odd * odd) * (to->mode[k] - to->input);
+        const lag_step_t lag =
+            lag_step_kept(&state->lag[k], step, field->diffusion / (odd * odd), field->hold);
+        state->mode[k] = lag_next(lag, state->mode[k], state->input, input);
+        diffused += 8 / (pi * pi * odd * odd) * (state->mode[k] - input);
     }
+    return diffused;
 }
 
 static const double quarter_turn = 1.57079632679489662;
@@ -65,23 +57,24 @@ static double gap_after(double gap, double speed, double excess, double step)
         left += atan(gap / steady) / rate;
         gap = 0;
     }
-    const double part = tanh(rate * left);
+    // tanh by one exponential, which takes half the time.
+    const double decay = exp(-2 * rate * left);
+    const double part = (1 - decay) / (1 + decay);
     return steady * (gap + steady * part) / (steady + gap * part);
 }
 
-field_state_t field_next(const field_t* field, const field_state_t* state, double input, double step)
+void field_move(const field_t* field, field_state_t* state, double input, double step)
 {
-    field_state_t next = {.input = input, .diffused = input};
-    if (field->diffusion > 0) {
-        diffuse(field, state, &next, step);
-    }
-    next.seen = next.diffused;
+    const double before = state->diffused;
+    state->diffused = field->diffusion > 0 ? diffuse(field, state, input, step) : input;
+    state->input = input;
     // Below this its square is no normal number, and the gap is none.
-    if (field->excess > 1e-150) {
-        const double move = next.diffused - state->diffused;
-        const double jump = field->diffusion > 0 ? 0 : field->hold * move;
-        const double gap = state->diffused + jump - state->seen;
-        next.seen -= gap_after(gap, (move - jump) / step, field->excess, step);
+    if (!(field->excess > 1e-150)) {
+        state->seen = state->diffused;
+        return;
     }
-    return next;
+    const double move = state->diffused - before;
+    const double jump = field->diffusion > 0 ? 0 : field->hold * move;
+    const double gap = before + jump - state->seen;
+    state->seen = state->diffused - gap_after(gap, (move - jump) / step, field->excess, step);
 }

@@ -28,16 +28,15 @@ bool field_is_neutral(const field_t* field);
 typedef struct {
     double input;
     double mode[FIELD_MODES];
-    double step; ///< [s] that `lag` is for
-    lag_step_t lag[FIELD_MODES];
+    lag_kept_t lag[FIELD_MODES];
     double diffused; ///< the mean across the lamination
     double seen;     ///< behind the excess field: what the hysteretic part sees
 } field_state_t;
 
 /// At rest at the input.
 field_state_t field_start(double input);
-/// The state when the input has moved to `input` in `step` seconds; of the same field as the last. Behind a
-/// diffusion the excess field's input goes straight.
-field_state_t field_next(const field_t* field, const field_state_t* state, double input, double step);
+/// The input moves to `input` in `step` seconds; of the same field as the last. Behind a diffusion the excess
+/// field's input goes straight.
+void field_move(const field_t* field, field_state_t* state, double input, double step);
 
 #endif

@@ -382,7 +382,8 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step, fi
     outlook_t next = {0};
     double inside = v;
     if (!field_is_neutral(&hysteresis->field)) {
-        *field = field_next(&hysteresis->field, &state->field, v, step);
+        *field = state->field;
+        field_move(&hysteresis->field, field, v, step);
         inside = field->seen;
     }
     const arrival_t to = {v, inside, hysteresis_seen(hysteresis, state->model, state->sample + 1, inside)};
@@ -671,7 +672,9 @@ void hysteresis_field(const hysteresis_t* hysteresis, const double* time, const 
     }
     field_state_t state = field_start(num_samples > 0 ? input[0] : 0.0);
     for (size_t i = 0; i < num_samples; ++i) {
-        state = i > 0 ? field_next(&hysteresis->field, &state, input[i], time[i] - time[i - 1]) : state;
+        if (i > 0) {
+            field_move(&hysteresis->field, &state, input[i], time[i] - time[i - 1]);
+        }
         field[i] = state.seen;
     }
 }
