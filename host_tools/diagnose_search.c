@@ -282,20 +282,40 @@ static bool is_worth_changing(const hypothesis_t* trial, const hypothesis_t* bes
     return hypothesis_mean_square(trial) * exp(2 * dearer) < hypothesis_mean_square(best);
 }
 
+/// Whether two mechanisms are described by the same parameters.
+static bool says_the_same(const effect_t* a, const effect_t* b)
+{
+    bool same = a->num_parameters == b->num_parameters;
+    for (size_t p = 0; same && p < a->num_parameters; p++) {
+        same = strcmp(a->parameter[p].name, b->parameter[p].name) == 0;
+    }
+    return same;
+}
+
+static void try_mechanism(const candidates_t* c, size_t place, const effect_use_t* use, hypothesis_t* best)
+{
+    hypothesis_t trial = *best;
+    trial.use[place] = *use;
+    hypothesis_fit(&trial, c->gap, -1, brief_evaluations(&trial));
+    const bool is_last = place + 1 == best->num_uses;
+    if (is_last ? is_better_mechanism(&trial, best) : is_worth_changing(&trial, best)) {
+        *best = trial;
+    }
+}
+
 /// Which mechanism of a name fits best beside other effects need not be the one that did alone.
 static void try_other_mechanisms(const candidates_t* c, size_t place, hypothesis_t* best)
 {
     const effect_use_t found = best->use[place];
     for (size_t i = 1; i <= c->num_singles; i++) {
-        const hypothesis_t* other = &c->hypothesis[i];
-        if (other->use[0].effect != found.effect && hypothesis_names_use(other, &found)) {
-            hypothesis_t trial = *best;
-            trial.use[place] = other->use[0];
-            hypothesis_fit(&trial, c->gap, -1, brief_evaluations(&trial));
-            const bool is_last = place + 1 == best->num_uses;
-            if (is_last ? is_better_mechanism(&trial, best) : is_worth_changing(&trial, best)) {
-                *best = trial;
-            }
+        effect_use_t other = c->hypothesis[i].use[0];
+        if (other.effect == found.effect || !hypothesis_names_use(&c->hypothesis[i], &found)) {
+            continue;
+        }
+        try_mechanism(c, place, &other, best);
+        if (says_the_same(other.effect, found.effect)) {
+            memcpy(other.parameter, found.parameter, sizeof other.parameter);
+            try_mechanism(c, place, &other, best);
         }
     }
 }
