@@ -1,9 +1,7 @@
 #include "hysteresis.h"
 
-#include "extremes.h"
-#include "lag_step.h"
+#include "hysteresis_plays.h"
 #include "reference.h"
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,11 +16,6 @@ void hysteresis_free(hysteresis_t* hysteresis)
     free(hysteresis->width);
     free(hysteresis->coercive);
     *hysteresis = hysteresis_neutral();
-}
-
-static bool differs(double value)
-{
-    return fabs(value) > 0.0;
 }
 
 bool hysteresis_has_past(const hysteresis_t* hysteresis)
@@ -63,198 +56,6 @@ static double level(const model_t* model, double v)
 {
     const double half = 0.5 * (model->input_max - model->input_min);
     return smaller(larger((v - model->input_min) / half - 1.0, -1.0), 1.0);
-}
-
-/// The middle and half of what the plays' sum spans between the saturations.
-static void set_sum_range(hysteresis_state_t* state)
-{
-    const model_t* model = state->model;
-    const double low = curve_value(&model->descending, model->input_min);
-    const double high = curve_value(&model->ascending, model->input_max);
-    for (size_t j = 0; j < model->num_plays; ++j) {
-        state->sum_middle += model->weight[j] * 0.5 * (low + high);
-        state->sum_half += model->weight[j] * fmax(0.5 * (high - low) - model->radius[j], 0.0);
-    }
-}
-
-static double weighted_sum(const model_t* model, const double* memory)
-{
-    double sum = 0.0;
-    for (size_t j = 0; j < model->num_plays; ++j) {
-        sum += model->weight[j] * memory[j];
-    }
-    return sum;
-}
-
-/// Both envelopes at one end of a step, and what the radii grow by there.
-typedef struct {
-    double ascending, descending, extra;
-} strip_t;
-
-static strip_t strip_at(const model_t* model, double v, double extra)
-{
-    return (strip_t){curve_value(&model->ascending, v), curve_value(&model->descending, v), extra};
-}
-
-static double lower_end(const strip_t* strip, double radius)
-{
-    return strip->ascending - larger(radius + strip->extra, 0.0);
-}
-
-static double upper_end(const strip_t* strip, double radius)
-{
-    return strip->descending + larger(radius + strip->extra, 0.0);
-}
-
-/// A play's lag and what it leaves out of a whole step, 1 - exp(-step/lag).
-typedef struct {
-    double time, missing;
-} play_lag_t;
-
-/// Where a state ends that a bound, moving evenly from `from` to `to` in `step` seconds, pulls up: w' =
-/// (bound - w)/lag below it, 0 above. With e = bound - w and the bound's speed s: e(t) = s lag + (e0 - s lag)
-/// exp(-t/lag).
-static double pulled_up(double w, double from, double to, double step, play_lag_t lag)
-{
-    const double speed = (to - from) / step;
-    const double below = from - w;
-    if (below > 0.0) {
-        if (speed < 0.0) {
-            const double meeting = lag.time * log1p(below / (-speed * lag.time));
-            if (meeting < step) {
-                return from + speed * meeting;
-            }
-        }
-        return to - below * (1.0 - lag.missing) - speed * (lag.time * lag.missing);
-    }
-    if (to > w) {
-        const double left = (to - w) / speed;
-        return to + speed * (lag.time * expm1(-left / lag.time));
-    }
-    return w;
-}
-
-static double pulled_down(double w, double from, double to, double step, play_lag_t lag)
-{
-    return -pulled_up(-w, -from, -to, step, lag);
-}
-
-/// One play through one step; direction 1 rising, -1 falling, 0 held.
-static double lagged(double w, double radius, const strip_t* from, const strip_t* to, int direction,
-                     double step, play_lag_t lag)
-{
-    const double low[2] = {lower_end(from, radius), lower_end(to, radius)};
-    const double high[2] = {upper_end(from, radius), upper_end(to, radius)};
-    if (direction < 0) {
-        w = pulled_up(w, low[0], low[1], step, lag);
-        return pulled_down(w, high[0], high[1], step, lag);
-    }
-    w = pulled_down(w, high[0], high[1], step, lag);
-    return pulled_up(w, low[0], low[1], step, lag);
-}
-
-/// Where radii change, a play may also be pushed while the input holds or by the strip's other side.
-static double moved_between(double w, double radius, const strip_t* to, int direction)
-{
-    const double low = lower_end(to, radius);
-    const double high = upper_end(to, radius);
-    return direction < 0 ? smaller(high, larger(low, w)) : larger(low, smaller(high, w));
-}
-
-/// Eq. (6).
-static void move_own_radii(const model_t* model, double v, int direction, const double* before,
-                           double* memory)
-{
-    if (direction == 0) {
-        memcpy(memory, before, model->num_plays * sizeof *memory);
-        return;
-    }
-    const double envelope = curve_value(direction > 0 ? &model->ascending : &model->descending, v);
-    for (size_t j = 0; direction > 0 && j < model->num_plays; ++j) {
-        memory[j] = larger(before[j], envelope - model->radius[j]);
-    }
-    for (size_t j = 0; direction < 0 && j < model->num_plays; ++j) {
-        memory[j] = smaller(before[j], envelope + model->radius[j]);
-    }
-}
-
-static strip_t strip_between(const strip_t* from, const strip_t* to, double part)
-{
-    return (strip_t){from->ascending + part * (to->ascending - from->ascending),
-                     from->descending + part * (to->descending - from->descending),
-                     from->extra + part * (to->extra - from->extra)};
-}
-
-static double play_lag_time(const hysteresis_state_t* state, size_t play)
-{
-    const double* radius = state->model->radius;
-    const double largest = larger(radius[state->model->num_plays - 1], DBL_MIN);
-    return state->hysteresis->play_lag * (1.0 + state->hysteresis->lag_spread * radius[play] / largest);
-}
-
-/// 1 - exp(-step/lag) of every play; kept behind both memories, as steps seldom differ.
-static const double* missing_of(const hysteresis_state_t* state, double step)
-{
-    const model_t* model = state->model;
-    double* missing = state->memory + 2 * model->num_plays;
-    double* kept_step = missing + model->num_plays;
-    if (!lag_is_same_step(step, *kept_step)) {
-        for (size_t j = 0; j < model->num_plays; ++j) {
-            missing[j] = -expm1(-step / play_lag_time(state, j));
-        }
-        *kept_step = step;
-    }
-    return missing;
-}
-
-/// The plays with a lag; returns the strip there.
-static strip_t trail(const hysteresis_state_t* state, double v, double from_extra, double to_extra,
-                     double step, double* memory)
-{
-    const model_t* model = state->model;
-    const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
-    const strip_t from = {state->ascending, state->descending, from_extra};
-    const strip_t to =
-        direction == 0 ? (strip_t){from.ascending, from.descending, to_extra} : strip_at(model, v, to_extra);
-    const strip_t held = strip_between(&from, &to, state->hysteresis->lag_hold);
-    const double* missing = missing_of(state, step);
-    for (size_t j = 0; j < model->num_plays; ++j) {
-        const play_lag_t lag = {play_lag_time(state, j), missing[j]};
-        memory[j] = lagged(state->memory[j], model->radius[j], &held, &to, direction, step, lag);
-    }
-    return to;
-}
-
-/// Returns the strip there where the plays have a lag: the next step's begin.
-static strip_t move_plays(const hysteresis_state_t* state, double v, double step, double* memory)
-{
-    const model_t* model = state->model;
-    const hysteresis_t* hysteresis = state->hysteresis;
-    const double* width = hysteresis->width;
-    const double speed = hysteresis->widening * fabs(v - state->input) / step;
-    const double from_extra = speed + (width != NULL ? width[state->sample] : 0.0);
-    const double to_extra = speed + (width != NULL ? width[state->sample + 1] : 0.0);
-    const int direction = (v > state->input ? 1 : 0) - (v < state->input ? 1 : 0);
-    if (hysteresis->play_lag > 0.0) {
-        return trail(state, v, from_extra, to_extra, step, memory);
-    }
-    if (width == NULL && !differs(hysteresis->widening)) {
-        move_own_radii(model, v, direction, state->memory, memory);
-        return (strip_t){0};
-    }
-    const strip_t to = strip_at(model, v, to_extra);
-    for (size_t j = 0; j < model->num_plays; ++j) {
-        memory[j] = moved_between(state->memory[j], model->radius[j], &to, direction);
-    }
-    return (strip_t){0};
-}
-
-/// The input's new place, and the strip there.
-static void come_to(hysteresis_state_t* state, double input, const strip_t* strip)
-{
-    state->input = input;
-    state->ascending = strip->ascending;
-    state->descending = strip->descending;
 }
 
 /// A command on its way to the plays.
@@ -321,8 +122,8 @@ static double shifted(const hysteresis_state_t* state, const arrival_t* to, doub
     double before = seen;
     double image_before = seen;
     for (int i = 0; i < ITERATIONS; ++i) {
-        (void)move_plays(state, seen, step, scratch);
-        const double image = shift(state, to, seen, weighted_sum(model, scratch));
+        (void)plays_move(state, seen, step, scratch);
+        const double image = shift(state, to, seen, plays_sum(model, scratch));
         if (fabs(image - seen) <= tolerance) {
             return image;
         }
@@ -340,24 +141,6 @@ typedef struct {
     strip_t strip; ///< where the plays have a lag
     double seen, nonhysteretic, travel, sum, correction, middle, lagged_middle, ahead;
 } outlook_t;
-
-static bool has_direct(const hysteresis_t* hysteresis)
-{
-    return hysteresis->play_lag > 0.0 && hysteresis->lag_direct > 0.0;
-}
-
-/// The plays' part of the major loop's middle.
-static double plays_middle(const hysteresis_state_t* state, double seen)
-{
-    return loop_middle_at(state->hysteresis->middle, seen) - curve_value(&state->model->nonhysteretic, seen);
-}
-
-/// The same, now at `middle`, as a play of no radius lags behind it, `step` seconds on.
-static double next_middle(const hysteresis_state_t* state, double middle, double step)
-{
-    const lag_step_t lag = lag_step_held(step, state->hysteresis->play_lag, state->hysteresis->lag_hold);
-    return lag_next(lag, state->lagged_middle, state->middle, middle);
-}
 
 /// How far increments (amplitude: the sum about its middle) scale at input v after `travel`.
 static double increment_factor(const hysteresis_state_t* state, double v, double travel)
@@ -389,13 +172,13 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step, fi
     const arrival_t to = {v, inside, hysteresis_seen(hysteresis, state->model, state->sample + 1, inside)};
     next.seen = shifted(state, &to, step);
     next.nonhysteretic = nonhysteretic_at(state, &to, next.seen);
-    next.strip = move_plays(state, next.seen, step, scratch);
+    next.strip = plays_move(state, next.seen, step, scratch);
     next.travel = state->travel + fabs(v - state->command);
-    next.sum = weighted_sum(state->model, scratch);
+    next.sum = plays_sum(state->model, scratch);
     next.correction = state->correction;
-    if (has_direct(hysteresis)) {
+    if (plays_have_direct(hysteresis)) {
         next.middle = plays_middle(state, next.seen);
-        next.lagged_middle = next_middle(state, next.middle, step);
+        next.lagged_middle = plays_next_middle(state, next.middle, step);
         next.ahead = hysteresis->lag_direct * (next.middle - next.lagged_middle);
     }
     if (differs(hysteresis->level_gain) || differs(hysteresis->wear)) {
@@ -427,155 +210,6 @@ static double output_at(const hysteresis_state_t* state, double v, const outlook
     return hysteresis_stiffened(hysteresis, state->model, v, output);
 }
 
-/// initial_state: each play between its strip's bottom, its own start and its strip's top by a fraction that
-/// is linear over the radii; then 1-Lipschitz in the radius, as every memory is.
-static void place_plays(const hysteresis_state_t* state)
-{
-    const model_t* model = state->model;
-    const hysteresis_t* hysteresis = state->hysteresis;
-    const double first = model->radius[0];
-    const double span = model->radius[model->num_plays - 1] - first;
-    const strip_t strip = strip_at(model, state->input, 0.0);
-    for (size_t j = 0; j < model->num_plays; ++j) {
-        const double radius = model->radius[j];
-        const double last_node = (double)(hysteresis->num_nodes - 1);
-        const double place = span > 0.0 ? (radius - first) / span * last_node : 0.0;
-        const size_t node = (size_t)fmin(floor(place), last_node - 1.0);
-        const double part = place - (double)node;
-        const double fraction =
-            (1.0 - part) * hysteresis->start_fraction[node] + part * hysteresis->start_fraction[node + 1];
-        const double end = fraction > 0.0 ? upper_end(&strip, radius) : lower_end(&strip, radius);
-        double* w = &state->memory[j];
-        *w += fabs(fraction) * (end - *w);
-        if (j > 0) {
-            const double reach = radius - model->radius[j - 1];
-            *w = fmin(fmax(*w, w[-1] - reach), w[-1] + reach);
-        }
-    }
-}
-
-/// The plays at the first sample, after the start's past and the turns since.
-static reference_t past_of(const model_t* model, start_t start, const hysteresis_t* hysteresis,
-                           double first_input)
-{
-    reference_t reference =
-        reference_new(model, start, hysteresis->num_turns > 0 ? hysteresis->turn[0] : first_input);
-    for (size_t k = 1; k < hysteresis->num_turns; ++k) {
-        (void)reference_step(&reference, hysteresis->turn[k]);
-    }
-    (void)reference_step(&reference, first_input);
-    return reference;
-}
-
-/// At rest at an input.
-static void begin_at(hysteresis_state_t* state, double input)
-{
-    const strip_t strip = strip_at(state->model, input, 0.0);
-    come_to(state, input, &strip);
-    if (has_direct(state->hysteresis)) {
-        state->middle = plays_middle(state, input);
-        state->lagged_middle = state->middle;
-    }
-}
-
-/// Plays with a lag on an even ramp from where they are, at the hysteresis' approach.
-static void ramp_to(hysteresis_state_t* state, double to)
-{
-    enum { STEPS = 32 };
-    const double from = state->input;
-    const double step = fabs(to - from) / state->hysteresis->approach / STEPS;
-    for (int k = 1; k <= STEPS && step > 0.0; ++k) {
-        const double next = from + (to - from) * k / STEPS;
-        const strip_t strip = move_plays(state, next, step, state->memory + state->model->num_plays);
-        memcpy(state->memory, state->memory + state->model->num_plays,
-               state->model->num_plays * sizeof(double));
-        if (has_direct(state->hysteresis)) {
-            const double middle = plays_middle(state, next);
-            state->lagged_middle = next_middle(state, middle, step);
-            state->middle = middle;
-        }
-        come_to(state, next, &strip);
-    }
-    state->input = to;
-}
-
-/// From where a way to this end of the range put the plays, towards where one from far beyond it had.
-static void begin_beyond(hysteresis_state_t* state, bool from_top)
-{
-    const model_t* model = state->model;
-    const strip_t strip = strip_at(model, state->input, 0.0);
-    for (size_t j = 0; j < model->num_plays; ++j) {
-        const double radius = model->radius[j];
-        const double end = from_top ? upper_end(&strip, radius) : lower_end(&strip, radius);
-        state->memory[j] += state->hysteresis->beyond * (end - state->memory[j]);
-    }
-}
-
-/// The plays as a lag leaves them behind: what came before the last turn was at leisure, for a saturation
-/// that was the other one. No column says how wide they were, and they may lie outside their strips.
-static void approach_first(hysteresis_state_t* state, start_t start)
-{
-    const model_t* model = state->model;
-    const hysteresis_t* hysteresis = state->hysteresis;
-    hysteresis_t before_record = *hysteresis;
-    before_record.width = NULL;
-    state->hysteresis = &before_record;
-    const double first = state->input;
-    const bool from_top =
-        start == START_NEGATIVE_SATURATION || (start == START_MODEL && model->initial == NULL);
-    const bool is_saturated = hysteresis->num_turns == 0 && (from_top || start == START_POSITIVE_SATURATION);
-    const start_t before = !is_saturated ? start
-                           : from_top    ? START_POSITIVE_SATURATION
-                                         : START_NEGATIVE_SATURATION;
-    reference_t reference = hysteresis->num_turns > 0 ? past_of(model, start, hysteresis,
-                                                                hysteresis->turn[hysteresis->num_turns - 1])
-                                                      : reference_start(model, before);
-    memcpy(state->memory, reference.memory, model->num_plays * sizeof(double));
-    begin_at(state, reference.input);
-    reference_free(&reference);
-    if (is_saturated) {
-        begin_beyond(state, from_top);
-        ramp_to(state, from_top ? model->input_min : model->input_max);
-    }
-    ramp_to(state, first);
-    state->hysteresis = hysteresis;
-}
-
-hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const hysteresis_t* hysteresis,
-                                    double first_input)
-{
-    const double seen = hysteresis_seen(hysteresis, model, 0, first_input);
-    reference_t reference = past_of(model, start, hysteresis, seen);
-    hysteresis_state_t state = {.model = model,
-                                .hysteresis = hysteresis,
-                                .command = first_input,
-                                .field = field_start(first_input),
-                                .memory = xcalloc(3 * model->num_plays + 1, sizeof(double))};
-    memcpy(state.memory, reference.memory, model->num_plays * sizeof(double));
-    reference_free(&reference);
-    begin_at(&state, seen);
-    const bool trails = differs(hysteresis->play_lag) && hysteresis->approach > 0.0;
-    if (trails) {
-        approach_first(&state, start);
-    }
-    if (hysteresis->start_fraction != NULL) {
-        place_plays(&state);
-    }
-    if (hysteresis->width != NULL && !trails) {
-        const strip_t strip = strip_at(model, seen, hysteresis->width[0]);
-        for (size_t j = 0; j < model->num_plays; ++j) {
-            state.memory[j] = moved_between(state.memory[j], model->radius[j], &strip, 0);
-        }
-    }
-    if (has_direct(hysteresis)) {
-        state.ahead = hysteresis->lag_direct * (state.middle - state.lagged_middle);
-    }
-    state.sum = weighted_sum(model, state.memory);
-    state.nonhysteretic = curve_value(&model->nonhysteretic, first_input);
-    set_sum_range(&state);
-    return state;
-}
-
 void hysteresis_state_free(hysteresis_state_t* state)
 {
     free(state->memory);
@@ -600,7 +234,7 @@ double hysteresis_step(hysteresis_state_t* state, double input, double step)
     const outlook_t next = look(state, input, step, &field);
     memcpy(state->memory, state->memory + state->model->num_plays, state->model->num_plays * sizeof(double));
     state->sample += 1;
-    come_to(state, next.seen, &next.strip);
+    plays_come_to(state, next.seen, &next.strip);
     state->command = input;
     if (!field_is_neutral(&state->hysteresis->field)) {
         state->field = field;
@@ -691,7 +325,7 @@ void hysteresis_from_sums(const model_t* model, const hysteresis_t* hysteresis, 
         return;
     }
     hysteresis_state_t state = {.model = model, .hysteresis = hysteresis};
-    set_sum_range(&state);
+    plays_set_sum_range(&state);
     double travel = 0.0;
     double correction = 0.0;
     for (size_t i = 0; i < num_samples; ++i) {
