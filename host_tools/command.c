@@ -43,6 +43,10 @@ static outcome_t take_arguments(const command_t* command, poptContext context, i
         }
         count += 1;
     }
+    if (count > 0 && command->num_arguments == 0) {
+        return message_error(OUTCOME_USAGE, NOWHERE, "%s takes no argument, but got %d (see hyst %s --help)",
+                             command->verb, count, command->verb);
+    }
     if (count != command->num_arguments) {
         return message_error(OUTCOME_USAGE, NOWHERE,
                              "%s takes %d argument%s, %s, but got %d (see hyst %s --help)", command->verb,

@@ -17,6 +17,7 @@ outcome_t cmd_emit(int argc, const char** argv);
 outcome_t cmd_simulate(int argc, const char** argv);
 outcome_t cmd_invert(int argc, const char** argv);
 outcome_t cmd_diagnose(int argc, const char** argv);
+outcome_t cmd_effects(int argc, const char** argv);
 
 typedef struct {
     const char* verb;        ///< "simulate"

@@ -34,7 +34,12 @@ static void set_blocks(gap_t* gap)
 gap_t gap_new(const model_t* model, const effect_run_t* run, start_t start, const double* output,
               const bool* carried, const nuisance_t* nuisance, double variance)
 {
-    gap_t gap = {.model = model, .run = run, .start = start, .output = output, .carried = carried};
+    gap_t gap = {.model = model,
+                 .run = run,
+                 .start = start,
+                 .output = output,
+                 .carried = carried,
+                 .variance = variance};
     set_blocks(&gap);
     bool* counts = xmalloc(run->num_samples * sizeof *counts);
     for (size_t fold = 0; fold <= HYPOTHESIS_FOLDS; fold++) {
@@ -122,6 +127,7 @@ void hypothesis_set_start(hypothesis_t* hypothesis, const gap_t* gap, int start)
 typedef struct {
     double* value;
     bounds_t bounds;
+    double scatter; ///< as in effect_parameter_t
 } free_t;
 
 typedef struct {
@@ -202,6 +208,7 @@ static search_t search_from(hypothesis_t* hypothesis, size_t first, const gap_t*
             free_t* f = &s.free[s.num_free++];
             f->value = &use->parameter[p];
             f->bounds = (bounds_t){limits.low, limits.high, limits.logarithmic};
+            f->scatter = use->effect->parameter[p].scatter;
         }
     }
     s.filter = &gap->filter[held_out < 0 ? HYPOTHESIS_FOLDS : held_out];
@@ -247,7 +254,7 @@ static bool is_held_out(const search_t* s, size_t block)
 
 static size_t num_residuals(const search_t* s)
 {
-    return s->gap->run->num_samples + s->filter->nuisance->count;
+    return s->gap->run->num_samples + s->filter->nuisance->count + s->num_free;
 }
 
 static void keep_fitted(const search_t* s, double* residual)
@@ -266,7 +273,17 @@ enum { STEP = 1 };
 /// What lmdif returns when it ends for want of evaluations.
 enum { OUT_OF_EVALUATIONS = 5 };
 
-/// Errors at all samples, but for what the nuisance explains of the fitted ones; then the price of that.
+/// What it costs that parameters are off where plants have them, in units of the noise.
+static void price_scatter(const search_t* s, double* residual)
+{
+    for (size_t i = 0; i < s->num_free; i++) {
+        const free_t* f = &s->free[i];
+        residual[i] = f->scatter > 0 ? sqrt(s->gap->variance) * *f->value / f->scatter : 0;
+    }
+}
+
+/// Errors at all samples, but for what the nuisance explains of the fitted ones; then the price of that and
+/// of the parameters.
 static void residual_of(search_t* s, bool is_step, double* residual)
 {
     const size_t n = s->gap->run->num_samples;
@@ -290,6 +307,7 @@ static void residual_of(search_t* s, bool is_step, double* residual)
     for (size_t k = 0; k < s->filter->nuisance->count; k++) {
         residual[n + k] = sqrt(s->filter->variance) * s->amount[k];
     }
+    price_scatter(s, &residual[n + s->filter->nuisance->count]);
 }
 
 static int minpack_residual(void* context, int m, int n, const double* theta, double* residual, int task)
@@ -526,11 +544,11 @@ double hypothesis_mean_square(const hypothesis_t* hypothesis)
 
 void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
 {
-    double* residual = xmalloc((gap->run->num_samples + gap->filter[0].nuisance->count) * sizeof *residual);
     for (int fold = 0; fold < HYPOTHESIS_FOLDS; fold++) {
         hypothesis_t trial = *hypothesis;
         hypothesis_fit(&trial, gap, fold, 30);
         search_t s = search_new(&trial, gap, fold);
+        double* residual = xmalloc(num_residuals(&s) * sizeof *residual);
         residual_of(&s, true, residual);
         size_t t = 0;
         for (size_t b = 0; b < HYPOTHESIS_BLOCKS; b++) {
@@ -543,6 +561,6 @@ void hypothesis_judge(hypothesis_t* hypothesis, const gap_t* gap)
             }
         }
         search_free(&s);
+        free(residual);
     }
-    free(residual);
 }

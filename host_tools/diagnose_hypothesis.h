@@ -19,6 +19,7 @@ typedef struct {
     size_t num_judged;    ///< samples that are not carried
     size_t
         block_end[HYPOTHESIS_BLOCKS]; ///< contiguous stretches; block b belongs to fold b % HYPOTHESIS_FOLDS
+    double variance;                  ///< of what the output holds besides
     double dead_zone;                 ///< errors up to it are none: half a step of the output's converter
     nuisance_filter_t filter[HYPOTHESIS_FOLDS + 1]; ///< with each fold held out, and with none
 } gap_t;

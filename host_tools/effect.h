@@ -54,6 +54,8 @@ typedef struct {
     bool is_unit;       ///< in what another counts: searches leave it at its neutral value
     bool of_model;      ///< says what the identified model's parts hold of the plant's, 0 ... 1: another body
                         ///< that stood in for a search had its own
+    double scatter;     ///< how far plants scatter about 0, as a standard deviation: what a record does not
+                        ///< tell a search leaves there; 0: any value is as likely
 } effect_parameter_t;
 
 /// Bounds and starts of a parameter on one record, for fitting.
@@ -69,6 +71,9 @@ struct effect {
     const char* name;      ///< the catalogue's
     const char* mechanism; ///< NULL, or which of several under one name ("lag", "envelope_shift"):
                            ///< "mechanism" in JSON
+    const char* what;      ///< it is, for people
+    const char* law; ///< its equation, in the parameters' names and the symbols of `hyst effects`; lines
+                     ///< of what other parameters mean may follow
     effect_stage_t stage;
     bool transferable; ///< false: what was fitted holds for this record alone (drift, initial_state)
     bool needs_column; ///< exogenous: follows a named auxiliary column

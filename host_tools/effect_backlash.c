@@ -1,11 +1,10 @@
-/// backlash: lost motion between the material and the sensor (gear, loose joint): one more play, on the
-/// output.
-///     b = max(z - width/2, min(z + width/2, b)), y' = b + y - z, b = y + start width/2 at the record's start
-///     compliance dz/dt = y - z: a contact that gives passes on at once what is quicker than it
+/// backlash: b = y + start width/2 at the record's start; a contact that gives passes on at once what is
+/// quicker than its compliance.
 /// width >= 0 [output units], fitted up to half the output's span. start in [-1, 1] [1]: where in its gap, 1
 /// as a descent leaves it, -1 as an ascent; compliance >= 0 [s], fitted to four samples. Those are 0 when
-/// left out. Inverse: half the gap ahead in the direction of motion; where the wanted output holds, nothing
-/// moves; across a contact that gives, sample by sample.
+/// left out.
+/// Inverse: half the gap ahead in the direction of motion; where the wanted output holds, nothing moves;
+/// across a contact that gives, sample by sample.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include "lag_step.h"
@@ -115,6 +114,10 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
 
 const effect_t effect_backlash = {
     .name = "backlash",
+    .what =
+        "lost motion between the material and the sensor (gear, loose joint): one more play, on the output",
+    .law = "b = max(z - width/2, min(z + width/2, b)), y' = b + y - z, compliance dz/dt = y - z\n"
+           "start: where in its gap, 1 as a descent leaves it, -1 as an ascent",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -1,17 +1,14 @@
-/// creep: slow motion that goes on after a change, over decades of time (domains in piezo ceramics,
-/// polymers).
-///     additional:  y' = y + amount * mean_k LP_k(y - y(0)): the late motion comes on top
-///     delayed:     y' = (1 - amount) y + amount * mean_k LP_k(y): a part of each change comes late
-///     power_law:   a step s is followed by amount * ((1 + t / onset)^order - 1) s on top
+/// creep: of `additional` and `power_law` the late motion comes on top, of `delayed` a part of each change
+/// comes late.
 /// LP_k: six first-order lags, time constants evenly in the logarithm from tau_fast to tau_slow, at rest
 /// before the record; a step is then followed by a motion nearly linear in log(time). The power law is a
 /// mixture of lags too, of tau with the weight order / Gamma(1 - order) (tau/onset)^order e^(-onset/tau) d ln
-/// tau, here 16 of them, two a decade from 0.3 onset on, which up to 10^4 onsets is within 0.4 % of it
-/// for orders up to 0.35 and within 1.4 % at 0.5. Exact for a course that is linear between the samples.
-/// amount 0 ... 10 [1] (delayed: below 1), 0 < tau_fast <= tau_slow [s], onset > 0 [s], 0 < order < 1 [1].
-/// Inverse: exact, sample by sample. Sources: K. Kuhnen, P. Krejci, IEEE Trans. Autom. Control 54 (2009) 537:
-/// creep operators with eigenvalues in geometric sequence; R. L. Bagley, P. J. Torvik, J. Rheol. 27 (1983)
-/// 201: fractional orders.
+/// tau, here 16 of them, two a decade from 0.3 onset on, which up to 10^4 onsets is within 0.4 % of it for
+/// orders up to 0.35 and within 1.4 % at 0.5. Exact for a course that is linear between the samples. amount 0
+/// ... 10 [1] (delayed: below 1), 0 < tau_fast <= tau_slow [s], onset > 0 [s], 0 < order < 1 [1].
+/// Inverse: exact, sample by sample.
+/// Sources: K. Kuhnen, P. Krejci, IEEE Trans. Autom. Control 54 (2009) 537: creep operators with eigenvalues
+/// in geometric sequence; R. L. Bagley, P. J. Torvik, J. Rheol. 27 (1983) 201: fractional orders.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -220,9 +217,14 @@ static void invert_power(const effect_run_t* run, const double* parameter, const
     run_creep(run, creep_power(parameter), true, series);
 }
 
+static const char what[] =
+    "slow motion that goes on after a change, over decades of time (domains in piezo ceramics, polymers)";
+
 const effect_t effect_creep_additional = {
     .name = "creep",
     .mechanism = "additional",
+    .what = what,
+    .law = "y' = y + amount mean_k LP_k(y - y(0))",
     .stage = EFFECT_BODY,
     .transferable = true,
     .num_parameters = COUNT_OF(additional_parameters),
@@ -238,6 +240,8 @@ const effect_t effect_creep_additional = {
 const effect_t effect_creep_delayed = {
     .name = "creep",
     .mechanism = "delayed",
+    .what = what,
+    .law = "y' = (1 - amount) y + amount mean_k LP_k(y)",
     .stage = EFFECT_BODY,
     .transferable = true,
     .num_parameters = COUNT_OF(delayed_parameters),
@@ -253,6 +257,8 @@ const effect_t effect_creep_delayed = {
 const effect_t effect_creep_power_law = {
     .name = "creep",
     .mechanism = "power_law",
+    .what = what,
+    .law = "a step s of y is followed by amount ((1 + t / onset)^order - 1) s on top",
     .stage = EFFECT_BODY,
     .transferable = true,
     .num_parameters = COUNT_OF(power_parameters),

@@ -1,8 +1,6 @@
-/// delay: pure transport delay between command and response (a bus, a controller's cycle, a line's length).
-///     x'(t) = x(t - time), linear between the samples; before the first sample x was at its first value
-/// x is the input, or the output (mechanism "measurement"): as the hysteresis is rate independent the two are
-/// the same but between the samples, where a step's half gives another output than half of the step's
-/// outputs. time >= 0 [s]. Fitted over 0 ... a tenth of the record.
+/// delay: of the input, or of the output (mechanism "measurement"), at its first value before the record: as
+/// the hysteresis is rate independent the two are the same but between the samples, where a step's half gives
+/// another output than half of the step's outputs. time >= 0 [s]. Fitted over 0 ... a tenth of the record.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -41,10 +39,15 @@ static void apply(const effect_run_t* run, const double* parameter, const double
 
 /// What both mechanisms share.
 #define DELAY(its_stage)                                                                                     \
-    .name = "delay", .stage = (its_stage), .transferable = true, .num_parameters = COUNT_OF(parameters),     \
+    .name = "delay",                                                                                         \
+    .what =                                                                                                  \
+        "pure transport delay between command and response (a bus, a controller's cycle, a line's length)",  \
+    .stage = (its_stage), .transferable = true, .num_parameters = COUNT_OF(parameters),                      \
     .parameter = parameters, .limits = limits, .has_threshold = true, .apply = apply,                        \
     .no_inverse = "the response can only come later than the command; ask for the output earlier instead"
 
-const effect_t effect_delay = {DELAY(EFFECT_DRIVE)};
+const effect_t effect_delay = {DELAY(EFFECT_DRIVE), .law = "v'(t) = v(t - time), linear between the samples"};
 
-const effect_t effect_delay_measurement = {DELAY(EFFECT_SENSOR), .mechanism = "measurement"};
+const effect_t effect_delay_measurement = {DELAY(EFFECT_SENSOR),
+                                           .law = "y'(t) = y(t - time), linear between the samples",
+                                           .mechanism = "measurement"};

@@ -1,13 +1,6 @@
-/// drift: slow additive change over time, unrelated to the input (a sensor warming up, a creeping mount).
-///     linear:  y' = y + slope (t - t0)
-///     spline:  y' = y + s(t), s the natural cubic spline through 0 at the record's start and node_k at k/6
-///     of its
-///              duration
-///     fine_spline: likewise at k/10
-///     finest_spline: likewise at k/20
-///     dense_spline: likewise at k/40
-/// slope [output/s], node_k [output]. Holds for this record alone. Zero at the record's start: a constant is
-/// an offset. Spline: C. de Boor, A Practical Guide to Splines, ch. IV.
+/// drift: a line, or a spline through 6, 10, 20 or 40 nodes. slope [output/s], node_k [output]. Holds for
+/// this record alone. Zero at the record's start: a constant is an offset. Spline: C. de Boor, A Practical
+/// Guide to Splines, ch. IV.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
@@ -123,9 +116,14 @@ SPLINE(fine_spline, FINE_NODES)
 SPLINE(finest_spline, FINEST_NODES)
 SPLINE(dense_spline, DENSE_NODES)
 
+static const char what[] =
+    "slow additive change over time, unrelated to the input (a sensor warming up, a creeping mount)";
+
 const effect_t effect_drift_linear = {
     .name = "drift",
     .mechanism = "linear",
+    .what = what,
+    .law = "y' = y + slope (t - t0)",
     .stage = EFFECT_SENSOR,
     .is_linear = true,
     .num_parameters = COUNT_OF(slope_parameter),
@@ -138,6 +136,8 @@ const effect_t effect_drift_linear = {
 const effect_t effect_drift_spline = {
     .name = "drift",
     .mechanism = "spline",
+    .what = what,
+    .law = "y' = y + s(t), s the natural cubic spline through 0 at the start and node_k at k/6 of the record",
     .stage = EFFECT_SENSOR,
     .is_linear = true,
     .num_parameters = NODES,
@@ -150,6 +150,8 @@ const effect_t effect_drift_spline = {
 const effect_t effect_drift_fine_spline = {
     .name = "drift",
     .mechanism = "fine_spline",
+    .what = what,
+    .law = "the same with node_k at k/10",
     .stage = EFFECT_SENSOR,
     .is_linear = true,
     .num_parameters = FINE_NODES,
@@ -163,6 +165,8 @@ const effect_t effect_drift_fine_spline = {
 const effect_t effect_drift_finest_spline = {
     .name = "drift",
     .mechanism = "finest_spline",
+    .what = what,
+    .law = "the same with node_k at k/20",
     .stage = EFFECT_SENSOR,
     .is_linear = true,
     .num_parameters = FINEST_NODES,
@@ -176,6 +180,8 @@ const effect_t effect_drift_finest_spline = {
 const effect_t effect_drift_dense_spline = {
     .name = "drift",
     .mechanism = "dense_spline",
+    .what = what,
+    .law = "the same with node_k at k/40",
     .stage = EFFECT_SENSOR,
     .is_linear = true,
     .num_parameters = DENSE_NODES,

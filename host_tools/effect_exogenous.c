@@ -1,9 +1,5 @@
-/// exogenous: gain, offset or width follow a measured auxiliary column c (temperature, load, supply
-/// pressure), counted from the value named "reference" or, without it, from the record's first. q = c (1 +
-/// bend c), and
-///     y' = y (1 + gain q) + offset q, radii r_j + width q
-///     coercive_field: the hysteretic part sees middle + (v - middle) (1 - coercive q), middle that of the
-///                     model's input range: it takes 1 / (1 - coercive q) as much input to turn it round
+/// exogenous: the column counts from the value named "reference" or, without it, from the record's first. In
+/// a coercive_field it takes 1 / (1 - coercive q) as much input to turn the hysteretic part round.
 /// gain [1 per column unit], offset [output per column unit], width [envelope units per column unit], bend [1
 /// per column unit]: a material's law to second order, fitted up to |bend c| = 0.6; coercive [1 per column
 /// unit]. Those left out are 0.
@@ -97,8 +93,13 @@ static void configure_coercive(const effect_run_t* run, const double* parameter,
     follow(run, parameter[COERCIVE], parameter[COERCIVE_BEND], column, &hysteresis->coercive);
 }
 
+static const char what[] =
+    "gain, offset or width follow a measured auxiliary column c (temperature, load, supply pressure)";
+
 const effect_t effect_exogenous = {
     .name = "exogenous",
+    .what = what,
+    .law = "y' = y (1 + gain q) + offset q, r_j' = r_j + width q, q = c (1 + bend c)",
     .stage = EFFECT_BODY,
     .transferable = true,
     .needs_column = true,
@@ -114,6 +115,8 @@ const effect_t effect_exogenous = {
 const effect_t effect_exogenous_coercive_field = {
     .name = "exogenous",
     .mechanism = "coercive_field",
+    .what = what,
+    .law = "the hysteretic part sees v_m + (v - v_m) (1 - coercive q), q = c (1 + bend c)",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .needs_column = true,

@@ -1,7 +1,4 @@
-/// gain_offset: the plant's gain or offset is no longer what was calibrated (a replaced amplifier, an aged
-/// sensor).
-///     y' = gain y + offset
-/// gain > 0 [1], offset [output units]. Fitted over 0.2 ... 5 and two output spans.
+/// gain_offset: gain > 0 [1], offset [output units]. Fitted over 0.2 ... 5 and two output spans.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
@@ -37,6 +34,9 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
 
 const effect_t effect_gain_offset = {
     .name = "gain_offset",
+    .what =
+        "the plant's gain or offset is no longer what was calibrated (a replaced amplifier, an aged sensor)",
+    .law = "y' = gain y + offset",
     .stage = EFFECT_BODY,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -1,12 +1,9 @@
-/// initial_state: the memory at the record's start is not the model's; gone once wiped out.
-///     unnamed: w_j(0) moves from the run's own start towards its strip's top (f > 0) or bottom (f < 0) by
-///              the part |f|; f1 ... f6 in [-1, 1]: f over the radii, linear between six even nodes from the
-///              smallest to the largest. For model files only
-///     turning_points: between the run's own start and the first sample the input went to turn_1 ... turn_4
-///              [input], one after the other
-/// Either way the states stay 1-Lipschitz in the radius (Zhang et al. 2015, section 2), as every memory is.
-/// A past leaves nothing but its dominant turning points (wiping-out), of which searches look for the first
-/// four; a smaller loop left out moves only the plays below its half width. Holds for this record alone.
+/// initial_state: unnamed, the plays start off the run's own start; f1 ... f6 in [-1, 1] stand at six even
+/// nodes from the smallest radius to the largest; for model files only. turn_1 ... turn_4 [input]:
+/// turning_points go on from the run's own start. Either way the states stay 1-Lipschitz in the radius (Zhang
+/// et al. 2015, section 2), as every memory is. A past leaves nothing but its dominant turning points
+/// (wiping-out), of which searches look for the first four; a smaller loop left out moves only the plays
+/// below its half width. Holds for this record alone.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 
@@ -62,8 +59,13 @@ static void configure_turns(const effect_run_t* run, const double* parameter, co
     hysteresis->num_turns = TURNS;
 }
 
+static const char what[] = "the memory at the record's start is not the model's; gone once wiped out";
+
 const effect_t effect_initial_state = {
     .name = "initial_state",
+    .what = what,
+    .law = "w_j(0) moves towards its strip's top (f > 0) or bottom (f < 0) by the part |f|, f linear between "
+           "f1 ... f6 over the radii",
     .stage = EFFECT_HYSTERESIS,
     .num_parameters = COUNT_OF(node_parameters),
     .parameter = node_parameters,
@@ -75,6 +77,8 @@ const effect_t effect_initial_state = {
 const effect_t effect_initial_state_turning_points = {
     .name = "initial_state",
     .mechanism = "turning_points",
+    .what = what,
+    .law = "before the first sample the input went to turn_1 ... turn_4, one after the other",
     .stage = EFFECT_HYSTERESIS,
     .num_parameters = COUNT_OF(turn_parameters),
     .parameter = turn_parameters,

@@ -1,11 +1,10 @@
-/// input_lag: first-order lag ahead of the hysteresis (thermal mass, an amplifier's RC).
-///     tau (1 + growth level(v')) dv'/dt = v - v', at rest at its first value before the record
-/// level(v') from -1 to 1 over the model's input range: a piezo's capacitance grows with the voltage on it, a
-/// thermal mass loses more heat the hotter it is. tau >= 0 [s], fitted over a fiftieth of a sample ... half
-/// the record; growth in (-1, 1) [1], fitted up to 0.6; hold in [-1, 1] [1], fitted from 0 on (below it is a
-/// delay): how the input goes between the samples, -1 it stays (a converter holds it), 0 straight, 1 it is at
-/// once where the next sample has it. Those but tau are 0 when left out. Inverse: the lead v = v' + tau (1 +
-/// growth level(v')) dv'/dt.
+/// input_lag: at rest at its first value before the record. level(v') from -1 to 1 over the model's input
+/// range: a piezo's capacitance grows with the voltage on it, a thermal mass loses more heat the hotter it
+/// is. tau >= 0 [s], fitted over a fiftieth of a sample ... half the record; growth in (-1, 1) [1], fitted up
+/// to 0.6; hold in [-1, 1] [1], fitted from 0 on (below it is a delay): how the input goes between the
+/// samples, -1 it stays (a converter holds it), 0 straight, 1 it is at once where the next sample has it.
+/// Those but tau are 0 when left out.
+/// Inverse: the lead v = v' + tau (1 + growth level(v')) dv'/dt.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -52,6 +51,10 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
 
 const effect_t effect_input_lag = {
     .name = "input_lag",
+    .what = "first-order lag ahead of the hysteresis (thermal mass, an amplifier's RC)",
+    .law =
+        "tau (1 + growth level(v')) dv'/dt = v - v'\n"
+        "hold: between the samples v stays (-1), goes straight (0) or is at once where the next has it (1)",
     .stage = EFFECT_DRIVE,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -1,23 +1,20 @@
-/// noncongruency: minor loops between equal reversals differ with level, as no PI model allows.
-///     product:    S' = S_m + (1 + level_gain * level(v)) (S - S_m): weights that depend on the input
-///     moving:     the plays see v + moving * half range * (S - S_m) / S_h: a mean field
-///     increment:  dS' = (1 + level_gain * level(v)) dS: what a loop's two branches gain and lose does not
-///                 cancel, so that each cycle also shifts the output
+/// noncongruency:
+///     product:    weights that depend on the input
+///     moving:     a mean field
+///     increment:  what a loop's two branches gain and lose does not cancel, so that each cycle also shifts
+///                 the output
 /// and two that leave the middle m(v) of the major loop alone, which the calibration already shows:
-///     remanence_field:     the plays see v + field * half range * (y - m(v)) / half span: a mean field of
-///                          the remanent part of the output alone; of the nonhysteretic part `share` sees it
-///                          too, 0 when left out
-///     remanence_stiffness: y' = y + (stiffness * level + even * (level^2 - 1) + odd * (level^3 - level))
-///                          (y - m(v)): a reversible response whose steepness goes with the remanence, its
-///                          course smooth in the input; even and odd are 0 when left out
-/// S: the plays' weighted sum, S_m and S_h the middle and half of its span between the saturations, y the
-/// output, half span that of its range between them, level(v) from -1 to 1 over the model's input range.
+///     remanence_field:     a mean field of the remanent part of the output alone; of the nonhysteretic part
+///                          `share` sees it too, 0 when left out
+///     remanence_stiffness: a reversible response whose steepness goes with the remanence, its course smooth
+///                          in the input; even and odd are 0 when left out
 /// level_gain in (-1, 1), moving and field in [-1, 1], stiffness, even and odd in [-10, 10] [1]; above 1 the
-/// loop runs the other way round at one end. Inverse: by halving, sample by sample, where the output rises
-/// with the input (a field's factor times the loop's relative steepness below 1). Sources: I. D. Mayergoyz,
-/// Mathematical Models of Hysteresis, 1991, ch. II (input-dependent model); E. Della Torre, IEEE Trans. Audio
-/// 14 (1966) 86 (moving model); E. Della Torre, J. Oti, G. Kadar, IEEE Trans. Magn. 26 (1990) 3052
-/// (reversible part that depends on the irreversible one).
+/// loop runs the other way round at one end.
+/// Inverse: by halving, sample by sample, where the output rises with the input (a field's factor times the
+/// loop's relative steepness below 1).
+/// Sources: I. D. Mayergoyz, Mathematical Models of Hysteresis, 1991, ch. II (input-dependent model); E.
+/// Della Torre, IEEE Trans. Audio 14 (1966) 86 (moving model); E. Della Torre, J. Oti, G. Kadar, IEEE Trans.
+/// Magn. 26 (1990) 3052 (reversible part that depends on the irreversible one).
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -112,9 +109,13 @@ static void configure_stiffness(const effect_run_t* run, const double* parameter
     hysteresis->stiffness.odd += parameter[ODD];
 }
 
+static const char what[] = "minor loops between equal reversals differ with level, as no PI model allows";
+
 const effect_t effect_noncongruency_product = {
     .name = "noncongruency",
     .mechanism = "product",
+    .what = what,
+    .law = "S' = S_m + (1 + level_gain level(v)) (S - S_m)",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(gain_parameter),
@@ -126,6 +127,8 @@ const effect_t effect_noncongruency_product = {
 const effect_t effect_noncongruency_moving = {
     .name = "noncongruency",
     .mechanism = "moving",
+    .what = what,
+    .law = "the plays see v + moving half_range (S - S_m) / S_h",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(moving_parameter),
@@ -138,6 +141,8 @@ const effect_t effect_noncongruency_moving = {
 const effect_t effect_noncongruency_increment = {
     .name = "noncongruency",
     .mechanism = "increment",
+    .what = what,
+    .law = "dS' = (1 + level_gain level(v)) dS",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(gain_parameter),
@@ -150,6 +155,9 @@ const effect_t effect_noncongruency_increment = {
 const effect_t effect_noncongruency_remanence_field = {
     .name = "noncongruency",
     .mechanism = "remanence_field",
+    .what = what,
+    .law = "the plays see v + field half_range (y - m(v)) / half_span\n"
+           "share: how much of the nonhysteretic part sees it too",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(field_parameters),
@@ -161,6 +169,8 @@ const effect_t effect_noncongruency_remanence_field = {
 const effect_t effect_noncongruency_remanence_stiffness = {
     .name = "noncongruency",
     .mechanism = "remanence_stiffness",
+    .what = what,
+    .law = "y' = y + (stiffness level + even (level^2 - 1) + odd (level^3 - level)) (y - m(v))",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(stiffness_parameters),

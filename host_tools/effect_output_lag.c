@@ -1,10 +1,8 @@
-/// output_lag: lag behind the hysteresis (a sensor, a filter).
-///     tau dy'/dt = y - y', second tau dy''/dt = y' - y'', both at rest at their first value before the
-///     record
-/// tau >= 0 [s], fitted over a fiftieth of a sample ... half the record; hold in [-1, 1] [1], fitted from 0
-/// on: how y goes between the samples, 0 straight (and where it is left out; exact then), 1 at once where the
-/// next sample has it, as a filter in a program takes it; second 0 ... 1 [1], fitted up to a half: the faster
-/// of two lags in parts of the slower, of a sensor in a sheath or a pocket; 0 where it is left out: none.
+/// output_lag: both lags at rest at their first value before the record. tau >= 0 [s], fitted over a fiftieth
+/// of a sample ... half the record; hold in [-1, 1] [1], fitted from 0 on: how y goes between the samples, 0
+/// straight (and where it is left out; exact then), 1 at once where the next sample has it, as a filter in a
+/// program takes it; second 0 ... 1 [1], fitted up to a half: the faster of two lags in parts of the slower,
+/// of a sensor in a sheath or a pocket; 0 where it is left out: none.
 /// Inverse: the leads y' = y'' + second tau dy''/dt and y = y' + tau dy'/dt.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
@@ -57,6 +55,10 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
 
 const effect_t effect_output_lag = {
     .name = "output_lag",
+    .what = "lag behind the hysteresis (a sensor, a filter)",
+    .law =
+        "tau dy'/dt = y - y', second tau dy''/dt = y' - y''\n"
+        "hold: between the samples y stays (-1), goes straight (0) or is at once where the next has it (1)",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -1,11 +1,9 @@
-/// output_nonlinearity: a smooth static map on the output (a sensor's characteristic, a lever's geometry).
-///     polynomial: y' = y + half (shift + linear z + quadratic z^2 + cubic z^3),  z = (y - middle) / half
-///     two_point:  y' = y + half (1 - z^2) (bow + skew (1/2 - |bow|) z)
-/// two_point is right at both ends of the range, as a sensor is that was calibrated there.
-/// middle and half of the model's output between its two saturations; beyond |z| = 1 the map goes on
+/// output_nonlinearity: two_point is right at both ends of the range, as a sensor is that was calibrated
+/// there. Beyond |z| = 1 the map goes on
 /// straight. All [1]; shift and linear say where the sensor was trimmed. The map increases: 1 + linear + 2
 /// quadratic z + 3 cubic z^2 > 0 on [-1, 1], which of two_point's |bow| below 1/2 and |skew| below 1 always
-/// do. Inverse: by halving.
+/// do.
+/// Inverse: by halving.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -148,9 +146,14 @@ static void invert_two_point(const effect_run_t* run, const double* parameter, c
     run_two_point(run, parameter, unmap, series);
 }
 
+static const char what[] =
+    "a smooth static map on the output (a sensor's characteristic, a lever's geometry)";
+
 const effect_t effect_output_nonlinearity_two_point = {
     .name = "output_nonlinearity",
     .mechanism = "two_point",
+    .what = what,
+    .law = "y' = y + half_span (1 - z^2) (bow + skew (1/2 - |bow|) z), z = (y - y_m) / half_span",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(two_point_parameters),
@@ -163,6 +166,8 @@ const effect_t effect_output_nonlinearity_two_point = {
 const effect_t effect_output_nonlinearity_polynomial = {
     .name = "output_nonlinearity",
     .mechanism = "polynomial",
+    .what = what,
+    .law = "y' = y + half_span (shift + linear z + quadratic z^2 + cubic z^3), z = (y - y_m) / half_span",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

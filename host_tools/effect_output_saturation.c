@@ -1,8 +1,6 @@
-/// output_saturation: the output clips (an amplifier's rail, a converter's range, an end stop).
-///     y' = max(low, min(high, y))
-/// low < high [output units], fitted within the span between the model's saturations and a little beyond,
-/// where it does nothing. knee >= 0 [output], fitted to a tenth of the output's span, 0 when left out: how
-/// soft the corners are,
+/// output_saturation: low < high [output units], fitted within the span between the model's saturations and a
+/// little beyond, where it does nothing. knee >= 0 [output], fitted to a tenth of the output's span, 0 when
+/// left out: how soft the corners are,
 ///     min(high, y) = y - knee log(1 + exp((y - high) / knee)), and max(low, y) likewise.
 /// Inverse: what lies beyond cannot be reached.
 #include "effect_catalogue.h"
@@ -76,6 +74,8 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
 
 const effect_t effect_output_saturation = {
     .name = "output_saturation",
+    .what = "the output clips (an amplifier's rail, a converter's range, an end stop)",
+    .law = "y' = max(low, min(high, y)), corners rounded over knee",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

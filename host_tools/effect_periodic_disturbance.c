@@ -1,13 +1,10 @@
-/// periodic_disturbance: additive oscillation unrelated to the input (mains hum, a pump, a fan).
-///     y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency t)
-///     run_up: the same with f t + shift exp(-t/settling) for f t, and amplitudes 1 + swell exp(-t/settling)
-///     times as large: a machine whose speed and force settle. Its time counts from the record's start, and
-///     holds for this record alone.
-/// h = 1, 2, 3. amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the
-/// record's own time. frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and
-/// half the sample rate; amplitudes [output units]; shift [periods], fitted up to 1; swell [1], fitted up to
-/// 1.5; settling > 0 [s], fitted from a fiftieth to half of the record. Lines at the first ten multiples of a
-/// periodic input's frequency are an answer to it.
+/// periodic_disturbance: run_up is a machine whose speed and force settle; its time counts from the record's
+/// start, and it holds for this record alone.
+/// amplitude_sin and amplitude_cos are those of h = 1, the others may be left out. t: the record's own time.
+/// frequency > 0 [Hz], fitted between four periods in the record (fewer are a drift) and half the sample
+/// rate; amplitudes [output units]; shift [periods], fitted up to 1; swell [1], fitted up to 1.5; settling >
+/// 0 [s], fitted from a fiftieth to half of the record. Lines at the first ten multiples of a periodic
+/// input's frequency are an answer to it.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -148,8 +145,13 @@ static bool follows_input(const effect_run_t* run, const double* parameter)
     return locked > 0.5 * energy;
 }
 
+static const char what[] = "additive oscillation unrelated to the input (mains hum, a pump, a fan)";
+
 const effect_t effect_periodic_disturbance = {
     .name = "periodic_disturbance",
+    .what = what,
+    .law = "y' = y + sum_h amplitude_sin_h sin(2 pi h frequency t) + amplitude_cos_h cos(2 pi h frequency "
+           "t), h = 1, 2, 3",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),
@@ -164,6 +166,9 @@ const effect_t effect_periodic_disturbance = {
 const effect_t effect_periodic_disturbance_run_up = {
     .name = "periodic_disturbance",
     .mechanism = "run_up",
+    .what = what,
+    .law = "the same with frequency t + shift exp(-t/settling), amplitudes (1 + swell exp(-t/settling)) "
+           "times as large",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(run_up_parameters),

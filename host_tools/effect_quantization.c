@@ -1,6 +1,4 @@
-/// quantization: coarse steps of the converter.
-///     y' = offset + step round((y - offset) / step)
-/// step >= 0 [output units], 0: none; offset [output units]: one of the levels.
+/// quantization: step >= 0 [output units], 0: none; offset [output units]: one of the levels.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -34,6 +32,8 @@ static void apply(const effect_run_t* run, const double* parameter, const double
 
 const effect_t effect_quantization = {
     .name = "quantization",
+    .what = "coarse steps of the converter",
+    .law = "y' = offset + step round((y - offset) / step)",
     .rounds = true,
     .stage = EFFECT_SENSOR,
     .transferable = true,

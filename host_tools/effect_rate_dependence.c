@@ -1,27 +1,20 @@
-/// rate_dependence: the loop itself widens with the input's speed (viscous wall motion, eddy currents,
-/// internal friction).
-///     play_lag:  tau dw_j/dt = (where Eq. (6) puts the play, given w_j) - w_j: on a ramp every play trails
-///     by
-///                tau_j dw/dt, at rest inside its strip it stays; tau_j = tau (1 + spread r_j / r_N): walls
-///                that take more to move may be slower; hold as for an input_lag; the plays trail already as
-///                the record begins, where the input has come through the range to its first sample at
-///                `approach`, from the other end, where the plays were between where a way within the range
-///                had put them (`beyond` 0) and where one from far beyond it had (1); of what the plays give
-///                to the major loop's middle the part `direct` comes at once: how much of the middle is plays
-///                and how much memoryless no slow record tells
-///     widening:  r_j + coefficient |dv/dt| for every radius
-///     diffusion: the plays see the field inside, which diffuses across a conductor (field.h)
-///     excess:    the plays see the field less what moving walls take, coefficient * sqrt(rate) (field.h)
-/// tau >= 0 [s]; spread > -1, hold, beyond and direct 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure],
-/// 0 when left out; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles
-/// the largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at
-/// the mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag
-/// tells these from an input_lag. hold 0 ... 1 as for that; a diffusion's counts for an excess field behind
-/// it, too. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the input.
-/// Inverse: by halving, sample by sample; widening has none. Sources: viscous plays as in G. Bertotti's
-/// dynamic Preisach model, IEEE Trans. Magn. 28 (1992) 2599; widening radii: M. Al Janaideh, S. Rakheja,
-/// C.-Y. Su, Mechatronics 19 (2009) 656; classical and excess field: G. Bertotti, IEEE Trans. Magn. 24 (1988)
-/// 621.
+/// rate_dependence: of a play_lag every play trails on a ramp by tau_j dw/dt, at rest inside its strip it
+/// stays; tau_j grows with the radius: walls that take more to move may be slower; hold as for an input_lag;
+/// the plays trail already as the record begins, where the input has come through the range to its first
+/// sample at `approach`, from the other end, where the plays were between where a way within the range had
+/// put them (`beyond` 0) and where one from far beyond it had (1); of what the plays give to the major loop's
+/// middle the part `direct` comes at once: how much of the middle is plays and how much memoryless no slow
+/// record tells. The fields of diffusion and excess: field.h.
+/// tau >= 0 [s]; spread > -1, hold, beyond and direct 0 ... 1 [1], approach >= 0 [input/s, 0: at leisure], 0
+/// when left out; coefficient >= 0 [envelope units per input/s], fitted up to where the mean rate doubles the
+/// largest radius; excess >= 0 [input units per root of input/s], fitted up to half the range behind at the
+/// mean rate. share 0 ... 1: how much of the nonhysteretic part sees that field too; what does not lag tells
+/// these from an input_lag. hold 0 ... 1 as for that; a diffusion's counts for an excess field behind it,
+/// too. They count a quarter of an effect more, as with a share of 1 a small one is a lag of the input.
+/// Inverse: by halving, sample by sample; widening has none.
+/// Sources: viscous plays as in G. Bertotti's dynamic Preisach model, IEEE Trans. Magn. 28 (1992) 2599;
+/// widening radii: M. Al Janaideh, S. Rakheja, C.-Y. Su, Mechatronics 19 (2009) 656; classical and excess
+/// field: G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -158,9 +151,20 @@ static void play_lag_for_another_record(double* parameter)
     parameter[BEYOND] = 0.0;
 }
 
+static const char what[] =
+    "the loop itself widens with the input's speed (viscous wall motion, eddy currents, internal friction)";
+
 const effect_t effect_rate_dependence_play_lag = {
     .name = "rate_dependence",
     .mechanism = "play_lag",
+    .what = what,
+    .law =
+        "tau_j dw_j/dt = (where Eq. (6) puts the play, given w_j) - w_j, tau_j = tau (1 + spread r_j / r_N)\n"
+        "approach: how fast the input came to its first sample from the range's other end (0: at leisure), "
+        "where the plays\n"
+        "stood as a way within the range had put them (beyond 0) or one from far outside (1); direct: the "
+        "part of the\n"
+        "plays' share in the loop's middle that comes at once; hold as for an input_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(play_lag_parameters),
@@ -175,6 +179,8 @@ const effect_t effect_rate_dependence_play_lag = {
 const effect_t effect_rate_dependence_widening = {
     .name = "rate_dependence",
     .mechanism = "widening",
+    .what = what,
+    .law = "r_j' = r_j + coefficient |dv/dt|",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(widening_parameter),
@@ -187,6 +193,9 @@ const effect_t effect_rate_dependence_widening = {
 const effect_t effect_rate_dependence_diffusion = {
     .name = "rate_dependence",
     .mechanism = "diffusion",
+    .what = what,
+    .law = "the plays see the field inside a conductor, which diffuses across it within tau\n"
+           "share: how much of the nonhysteretic part sees it too; hold as for an input_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(diffusion_parameters),
@@ -199,6 +208,9 @@ const effect_t effect_rate_dependence_diffusion = {
 const effect_t effect_rate_dependence_excess = {
     .name = "rate_dependence",
     .mechanism = "excess",
+    .what = what,
+    .law = "the plays see v less excess sqrt(|rate|) in the direction of motion\n"
+           "share: how much of the nonhysteretic part sees it too; hold as for an input_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(excess_parameters),

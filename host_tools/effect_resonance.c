@@ -1,15 +1,12 @@
-/// resonance: second-order, lightly damped mode behind the hysteresis (the stage on the actuator).
-///     m'' + 2 damping w m' + w^2 m = w^2 x,  w = 2 pi frequency, at rest at the first value before the
-///     record; y = (1 - direct) m + direct x
-/// Exact for the course between the samples, stable for any step. frequency > 0 [Hz], damping 0 ... 0.999
-/// [1]. At high frequency it does nothing. direct 0 ... 0.5 [1]: what the higher modes carry, quick enough to
-/// follow at once (residual flexibility, D. J. Ewins, Modal Testing, ch. 2). hold and late 0 ... 1 [1]: a
-/// mode of a few samples' period rings by what x does between them. As a sample begins x has made `hold` of
-/// the step, of the rest `late` is missing as it ends, and between it goes straight: 0, 0 all the way, 1 a
-/// converter that is there at once, 0, 1 one that stays, 0.5, 1 a staircase of means. Those three are 0 when
-/// left out.
-/// Inverse: x = y + 2 damping/w y' + y''/w^2, and with direct that through a mode of w / sqrt(direct) and
-/// damping sqrt(direct).
+/// resonance: the mode is at rest at the first value before the record. Exact for the course between the
+/// samples, stable for any step. frequency > 0 [Hz], damping 0 ... 0.999 [1]. At high frequency it does
+/// nothing. direct 0 ... 0.5 [1]: what the higher modes carry, quick enough to follow at once (residual
+/// flexibility, D. J. Ewins, Modal Testing, ch. 2). hold and late 0 ... 1 [1]: a mode of a few samples'
+/// period rings by what y does between them. As a sample begins y has made `hold` of the step, of the rest
+/// `late` is missing as it ends, and between it goes straight: 0, 0 all the way, 1 a converter that is there
+/// at once, 0, 1 one that stays, 0.5, 1 a staircase of means. Those three are 0 when left out.
+/// Inverse: of a mode m, y = m + 2 damping/w m' + m''/w^2, and with direct that through a mode of w /
+/// sqrt(direct) and damping sqrt(direct).
 #include "effect_catalogue.h"
 #include "effect_lag.h"
 #include "effect_limits.h"
@@ -126,6 +123,11 @@ static bool does_not_ring(const effect_run_t* run, const double* parameter)
 
 const effect_t effect_resonance = {
     .name = "resonance",
+    .what = "second-order, lightly damped mode behind the hysteresis (the stage on the actuator)",
+    .law =
+        "m'' + 2 damping w m' + w^2 m = w^2 y, w = 2 pi frequency; y' = (1 - direct) m + direct y\n"
+        "hold, late: between the samples y goes straight (0, 0), is at once where the next has it (1, 0) or "
+        "stays (0, 1)",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -1,12 +1,11 @@
-/// Self-heating: the losses of motion warm the plant, which nobody measures, and its output shrinks and moves
-/// with that. No effect of the catalogue: where it explains a record best, the answer is "unknown" with that
-/// hint, and no model is written with it. A search that lacked it would put its slow course down to a drift.
-///     losses:   tau dq/dt = (dy/dt)^2 - q     dielectric and eddy-current losses
-///     friction: tau dq/dt = |dy/dt| - q       hysteresis losses: so much for each loop
-///     y' = y_m + exp(-gain q) (y - y_m) + offset q, cool when the record starts, |gain q| held to 2
-/// y_m: middle of the model's output between its two saturations. tau >= 0 [s], fitted from a fiftieth to a
-/// quarter of the record: quicker cannot be told from a lag, slower from wear or a drift; gain [1/q], offset
-/// [output/q]. Source: losses as in G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
+/// self_heating: no effect of the catalogue: where it explains a record best, the answer is "unknown" with
+/// that hint, and no model is written with it. A search that lacked it would put its slow course down to a
+/// drift.
+///     self_heating_losses:   dielectric and eddy-current losses
+///     self_heating_friction: hysteresis losses: so much for each loop
+/// Cool when the record starts, |gain q| held to 2. tau >= 0 [s], fitted from a fiftieth to a quarter of the
+/// record: quicker cannot be told from a lag, slower from wear or a drift; gain [1/q], offset [output/q].
+/// Source: losses as in G. Bertotti, IEEE Trans. Magn. 24 (1988) 621.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include "lag_step.h"
@@ -90,9 +89,14 @@ static void apply_friction(const effect_run_t* run, const double* parameter, con
     warm(run, parameter, false, series);
 }
 
+static const char what[] =
+    "the losses of motion warm the plant, which nobody measures, and its output shrinks and moves with that";
+
 const effect_t effect_self_heating_losses = {
     .name = "unknown",
     .mechanism = "self_heating_losses",
+    .what = what,
+    .law = "y' = y_m + exp(-gain q) (y - y_m) + offset q, tau dq/dt = (dy/dt)^2 - q",
     .stage = EFFECT_BODY,
     .outside = "self-heating (it follows the output's rate squared)",
     .num_parameters = COUNT_OF(losses_parameters),
@@ -106,6 +110,8 @@ const effect_t effect_self_heating_losses = {
 const effect_t effect_self_heating_friction = {
     .name = "unknown",
     .mechanism = "self_heating_friction",
+    .what = what,
+    .law = "y' = y_m + exp(-gain q) (y - y_m) + offset q, tau dq/dt = |dy/dt| - q",
     .stage = EFFECT_BODY,
     .outside = "self-heating (it follows the output's travel)",
     .num_parameters = COUNT_OF(friction_parameters),

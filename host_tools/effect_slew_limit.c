@@ -1,9 +1,7 @@
-/// slew_limit: the drive cannot follow faster than a rate (a supply's current into a piezo's capacitance, a
-/// servo valve).
-///     -rate (1 - asymmetry) <= dv'/dt <= rate (1 + asymmetry); v' goes to v as fast as that
-/// rate > 0 [input/s], fitted between a fiftieth of the record's mean rate and twice its largest, where it
-/// does nothing; asymmetry in (-1, 1) [1], fitted up to 0.5, 0 when left out: a supply that sources another
-/// current than it sinks.
+/// slew_limit: rate > 0 [input/s], fitted between a fiftieth of the record's mean rate and twice its largest,
+/// where it does nothing; asymmetry in (-1, 1) [1], fitted up to 0.5, 0 when left out: a supply that sources
+/// another current than it sinks. A record whose falls are all slow does not tell the falling rate, and the
+/// next one may fall fast: taken as near to the rising rate then.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -12,7 +10,7 @@ enum { RATE, ASYMMETRY };
 
 static const effect_parameter_t parameters[] = {
     [RATE] = {"rate", "input/s", .least = DBL_MIN, .most = DBL_MAX},
-    [ASYMMETRY] = {"asymmetry", "1", .least = -0.99, .most = 0.99, .optional = true},
+    [ASYMMETRY] = {"asymmetry", "1", .least = -0.99, .most = 0.99, .optional = true, .scatter = 0.2},
 };
 
 static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
@@ -37,6 +35,9 @@ static void apply(const effect_run_t* run, const double* parameter, const double
 
 const effect_t effect_slew_limit = {
     .name = "slew_limit",
+    .what = "the drive cannot follow faster than a rate (a supply's current into a piezo's capacitance, a "
+            "servo valve)",
+    .law = "-rate (1 - asymmetry) <= dv'/dt <= rate (1 + asymmetry); v' goes to v as fast as that",
     .stage = EFFECT_DRIVE,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -1,19 +1,11 @@
-/// wear: the response fades (or, rate < 0, grows) with accumulated cycles: depolarisation, abrasion, fatigue.
-///     amplitude:  S' = S_m + exp(-rate * spans) (S - S_m)
-///     increment:  dS' = exp(-rate * spans) dS: what lies behind stays, only what follows is smaller
-///     response:   y' = y_p + exp(-rate * damage) (y - y_p), y_p = y_m + pivot * half,
-///                 damage = (1 - exp(-settling * s)) / settling, s the spans, each move counted
-///                 (its speed / speed)^speed_power times
-/// response scales all of it, about a point of rest; what runs in settles, and fast or long strokes may wear
-/// more than their length.
-/// spans: the input's travel since the record's start over the width of the model's input range; S, S_m as
-/// for noncongruency; y_m, half: middle and half of the model's output between its two saturations. pivot
-/// [1], fitted to at most a quarter of their distance beyond them: fading about a point further away is a
-/// drift. rate [1 per span of travel], fitted to a factor of e^2 either way over the record. settling >= 0 [1
-/// per span], fitted to three lives a record; speed_power [1], fitted from 0 to 1.2, with speed [input/s] the
-/// record's own mean: at the mean it counts as travel does. Those are 0 when left out: damage is the spans.
-/// Source of damage by powers of a stroke: J. Lemaitre, R. Desmorat, Engineering Damage Mechanics (2005),
-/// ch. 6.
+/// wear: of `increment` what lies behind stays, only what follows is smaller; `response` counts in s each
+/// move (its speed / speed)^speed_power times, and scales all of it, about a point of rest; what runs in
+/// settles, and fast or long strokes may wear more than their length. pivot [1], fitted to at most a quarter
+/// of the output's range beyond its saturations: fading about a point further away is a drift. rate [1 per
+/// span of travel], fitted to a factor of e^2 either way over the record. settling >= 0 [1 per span], fitted
+/// to three lives a record; speed_power [1], fitted from 0 to 1.2, with speed [input/s] the record's own
+/// mean: at the mean it counts as travel does. Those are 0 when left out: damage is the spans. Source of
+/// damage by powers of a stroke: J. Lemaitre, R. Desmorat, Engineering Damage Mechanics (2005), ch. 6.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
@@ -111,9 +103,14 @@ static void configure_increment(const effect_run_t* run, const double* parameter
     hysteresis->wear += parameter[0];
 }
 
+static const char what[] =
+    "the response fades (or, rate < 0, grows) with accumulated cycles: depolarisation, abrasion, fatigue";
+
 const effect_t effect_wear_amplitude = {
     .name = "wear",
     .mechanism = "amplitude",
+    .what = what,
+    .law = "S' = S_m + exp(-rate spans) (S - S_m)",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),
@@ -125,6 +122,8 @@ const effect_t effect_wear_amplitude = {
 const effect_t effect_wear_increment = {
     .name = "wear",
     .mechanism = "increment",
+    .what = what,
+    .law = "dS' = exp(-rate spans) dS",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),
@@ -136,6 +135,9 @@ const effect_t effect_wear_increment = {
 const effect_t effect_wear_response = {
     .name = "wear",
     .mechanism = "response",
+    .what = what,
+    .law = "y' = y_p + exp(-rate damage) (y - y_p), y_p = y_m + pivot half_span, "
+           "damage = (1 - exp(-settling s)) / settling",
     .stage = EFFECT_BODY,
     .transferable = true,
     .num_parameters = COUNT_OF(response_parameters),

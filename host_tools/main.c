@@ -24,6 +24,7 @@ static const verb_t verbs[] = {
     {"simulate", cmd_simulate, "runs a model over a record's input"},
     {"invert", cmd_invert, "finds the input that gives a wanted output"},
     {"diagnose", cmd_diagnose, "finds the unmodelled effect behind a gap between model and record"},
+    {"effects", cmd_effects, "lists those effects, with their equations and parameters"},
 };
 enum { NUM_VERBS = sizeof verbs / sizeof verbs[0] };
 

@@ -32,8 +32,9 @@ void tearDown(void)
     model_free(&model);
 }
 
-/// Ramps between random levels at random speeds, now and then a hold: 0.01 s a sample.
-static void make_input(uint64_t seed)
+/// Ramps between random levels at random speeds, falls at most as fast as `fastest_fall`, now and then a
+/// hold: 0.01 s a sample.
+static void make_input_falling(uint64_t seed, double fastest_fall)
 {
     random_t random = random_new(seed);
     double v = 0;
@@ -48,7 +49,7 @@ static void make_input(uint64_t seed)
             hold--;
             continue;
         }
-        const double step = speed * 0.01;
+        const double step = (target > v ? speed : fmin(speed, fastest_fall)) * 0.01;
         v = fabs(target - v) <= step ? target : v + (target > v ? step : -step);
         if (fabs(target - v) <= 0) {
             target = random_uniform(&random, 0, 10);
@@ -56,6 +57,11 @@ static void make_input(uint64_t seed)
             hold = random_below(&random, 4) == 0 ? 60 : 0;
         }
     }
+}
+
+static void make_input(uint64_t seed)
+{
+    make_input_falling(seed, HUGE_VAL);
 }
 
 /// The plant's plays between two samples, FINE steps; lag: dz/dt = (y - z) / tau by small Euler steps;
@@ -191,7 +197,6 @@ static void test_threads_change_nothing(void)
     diagnosis_free(&alone);
 }
 
-/// Knocks on the sensor belong to no entry of the catalogue.
 /// The step stands in the values: exact but for rounding; the gap is still that of the model without a
 /// converter.
 static void test_coarse_steps_are_named_beside_a_lag(void)
@@ -215,6 +220,7 @@ static void test_coarse_steps_are_named_beside_a_lag(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, diagnosis.rmse, sqrt(sum / SAMPLES));
 }
 
+/// Knocks on the sensor belong to no entry of the catalogue.
 static void test_stranger_is_unknown(void)
 {
     make_input(5);
@@ -270,6 +276,40 @@ static void test_fitted_parameters_are_in_their_order(void)
     effect_run_free(&run);
 }
 
+/// The asymmetry found for a drive that rises at most by 30 a second and falls by at most 70, from a start
+/// near it.
+static double fit_asymmetry(void)
+{
+    const effect_use_t limited = {.effect = &effect_slew_limit, .parameter = {50, -0.4}};
+    const record_t record = {
+        .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
+    effect_run_t run = effect_run_new(&model, &record);
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &limited, 1, output);
+    random_t random = random_new(78);
+    for (size_t t = 0; t < SAMPLES; t++) {
+        output[t] += noise * random_normal(&random);
+    }
+    const nuisance_t nothing = {0};
+    gap_t gap = gap_new(&model, &run, START_NEGATIVE_SATURATION, output, NULL, &nothing, noise * noise);
+    const effect_use_t start = {.effect = &effect_slew_limit, .parameter = {45, -0.3}};
+    hypothesis_t hypothesis = hypothesis_of(&start, 1);
+    hypothesis_fit(&hypothesis, &gap, -1, 200);
+    gap_free(&gap);
+    effect_run_free(&run);
+    return hypothesis.use[0].parameter[1];
+}
+
+/// Where no fall is fast the record says nothing of the falling rate: then it is near the rising one, as
+/// plants have it; where falls are fast their rate is found.
+static void test_rate_that_no_fall_shows_is_near_the_rising_one(void)
+{
+    make_input_falling(9, 5);
+    // From beyond what plants scatter by to within it: nothing else pulls.
+    TEST_ASSERT_DOUBLE_WITHIN(0.2, 0, fit_asymmetry());
+    make_input(9);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, -0.4, fit_asymmetry());
+}
+
 static void test_records_without_excitation_are_refused(void)
 {
     make_input(6);
@@ -297,6 +337,7 @@ int main(void)
     RUN_TEST(test_stranger_is_unknown);
     RUN_TEST(test_self_heating_is_unknown);
     RUN_TEST(test_fitted_parameters_are_in_their_order);
+    RUN_TEST(test_rate_that_no_fall_shows_is_near_the_rising_one);
     RUN_TEST(test_records_without_excitation_are_refused);
     return UNITY_END();
 }
