@@ -1,15 +1,17 @@
 /// exogenous: the column counts from the value named "reference" or, without it, from the record's first. In
-/// a coercive_field it takes 1 / (1 - coercive q) as much input to turn the hysteretic part round.
+/// a coercive_field it takes 1 / (1 - coercive q) as much input to turn the hysteretic part round; how much
+/// of a plant's slope is hysteretic (the spring of a Bouc-Wen element) its bench does not tell, so a `share`
+/// of the rest may see that, too.
 /// gain [1 per column unit], offset [output per column unit], width [envelope units per column unit], bend [1
 /// per column unit]: a material's law to second order, fitted up to |bend c| = 0.6; coercive [1 per column
-/// unit]. Those left out are 0.
+/// unit]; share 0 ... 1 [1]. Those left out are 0.
 /// Inverse: where 1 + gain q <= 0 nothing can be reached.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
 enum { GAIN, OFFSET, WIDTH, BEND };
-enum { COERCIVE, COERCIVE_BEND };
+enum { COERCIVE, COERCIVE_BEND, COERCIVE_SHARE };
 
 static const effect_parameter_t parameters[] = {
     [GAIN] = {"gain", "1/column", ANY_NUMBER, .optional = true},
@@ -21,6 +23,7 @@ static const effect_parameter_t parameters[] = {
 static const effect_parameter_t coercive_parameters[] = {
     [COERCIVE] = {"coercive", "1/column", ANY_NUMBER},
     [COERCIVE_BEND] = {"bend", "1/column", ANY_NUMBER, .optional = true},
+    [COERCIVE_SHARE] = {"share", "1", .least = 0.0, .most = 1.0, .optional = true, .of_model = true},
 };
 
 /// For a column that goes as far as 1 from its reference; effect_use_limits divides by how far it goes.
@@ -39,8 +42,9 @@ static void limits(const effect_run_t* run, size_t parameter, effect_limits_t* r
 static void coercive_limits(const effect_run_t* run, size_t parameter, effect_limits_t* result)
 {
     (void)run;
-    *result = parameter == COERCIVE_BEND ? limits_linear(-0.6, 0.6, 0.0, 0.1, -0.1, 0.0)
-                                         : limits_linear(-0.9, 0.9, 0.0, 0.03, -0.03, 0.1);
+    *result = parameter == COERCIVE_BEND    ? limits_linear(-0.6, 0.6, 0.0, 0.1, -0.1, 0.0)
+              : parameter == COERCIVE_SHARE ? limits_linear(0.0, 1.0, 0.0, 0.1, 0.1, 0.8)
+                                            : limits_linear(-0.9, 0.9, 0.0, 0.03, -0.03, 0.1);
 }
 
 static double law(double bend, double column)
@@ -91,6 +95,9 @@ static void configure_coercive(const effect_run_t* run, const double* parameter,
                                hysteresis_t* hysteresis)
 {
     follow(run, parameter[COERCIVE], parameter[COERCIVE_BEND], column, &hysteresis->coercive);
+    if (fabs(parameter[COERCIVE]) > 0.0) {
+        hysteresis->coercive_share = parameter[COERCIVE_SHARE];
+    }
 }
 
 static const char what[] =
@@ -116,7 +123,8 @@ const effect_t effect_exogenous_coercive_field = {
     .name = "exogenous",
     .mechanism = "coercive_field",
     .what = what,
-    .law = "the hysteretic part sees v_m + (v - v_m) (1 - coercive q), q = c (1 + bend c)",
+    .law = "the hysteretic part sees v_m + (v - v_m) (1 - coercive q), q = c (1 + bend c)\n"
+           "share: how much of the nonhysteretic part sees it too",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .needs_column = true,

@@ -137,7 +137,8 @@ effect_limits_t effect_use_limits(const effect_run_t* run, const effect_use_t* u
         size = fmax(size, fabs(column[i]));
     }
     free(column);
-    if (size > 0.0) {
+    // What is counted per unit of the column, as its unit says.
+    if (size > 0.0 && strstr(use->effect->parameter[parameter].unit, "/column") != NULL) {
         limits = (effect_limits_t){
             .low = limits.low / size,
             .high = limits.high / size,
@@ -220,11 +221,12 @@ static void add_direct(const effect_run_t* run, const model_t* model, const stan
     for (size_t i = 0; i < run->num_samples; ++i) {
         const double seen = sight->seen[i];
         if (drive[i] < seen || drive[i] > seen) {
+            const double field = sight->field[i];
             const double shift =
-                hysteresis->shift != NULL ? hysteresis->shift_share * hysteresis->shift[i] : 0.0;
+                hysteresis->coercive_share * (hysteresis_seen(hysteresis, model, i, field) - field) +
+                (hysteresis->shift != NULL ? hysteresis->shift_share * hysteresis->shift[i] : 0.0);
             const double direct = nonhysteretic_at(run, model, body, drive[i] + shift);
-            const double shared =
-                share > 0.0 ? nonhysteretic_at(run, model, body, sight->field[i] + shift) : direct;
+            const double shared = share > 0.0 ? nonhysteretic_at(run, model, body, field + shift) : direct;
             output[i] += direct + share * (shared - direct) - nonhysteretic_at(run, model, body, seen);
         }
     }
@@ -296,6 +298,7 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     hysteresis_t neutral = hysteresis_neutral();
     neutral.field = hysteresis->field;
     neutral.coercive = hysteresis->coercive;
+    neutral.coercive_share = hysteresis->coercive_share;
     neutral.shift = hysteresis->shift;
     neutral.shift_share = hysteresis->shift_share;
     double* plain = xmalloc(run->num_samples * sizeof(double));

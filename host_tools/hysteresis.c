@@ -69,7 +69,8 @@ typedef struct {
 static double nonhysteretic_at(const hysteresis_state_t* state, const arrival_t* to, double seen)
 {
     const curve_t* nonhysteretic = &state->model->nonhysteretic;
-    const double shift = state->hysteresis->shift_share * (seen - to->seen);
+    const double shift = state->hysteresis->shift_share * (seen - to->seen) +
+                         state->hysteresis->coercive_share * (to->seen - to->field);
     const double direct = curve_value(nonhysteretic, to->command + shift);
     return differs(to->command - to->field)
                ? direct +

@@ -43,6 +43,7 @@ typedef struct {
     double* width;       ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
     double* coercive;    ///< [num_samples] owned: what the plays see, about the range's middle, scales by 1 -
                          ///< this (exogenous), or NULL
+    double coercive_share; ///< 0 ... 1: how much of that the nonhysteretic part sees too
     const double*
         start_fraction; ///< [num_nodes] initial_state: where a play begins, node by node over the radii,
                         ///< between its strip's bottom (-1), the run's own start (0) and its top (1); or NULL

@@ -66,7 +66,7 @@ static const effect_case_t cases[] = {
     {"periodic_disturbance", "run_up", {0.55, 0.05, -0.03, 0.01, 0.02, -0.015, 0.01, -0.2, 0.5, 1.6}, 0.0},
     {"quantization", NULL, {0.07, 0.02}, 0.0},
     {"exogenous", NULL, {0.03, 0.02, 0.01, 0.05}, 0.0},
-    {"exogenous", "coercive_field", {0.04, 0.05}, 1.3},
+    {"exogenous", "coercive_field", {0.04, 0.05, 0.3}, 1.3},
 };
 
 size_t effect_case_count(void)

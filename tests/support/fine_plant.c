@@ -249,6 +249,14 @@ static void start_plays(plant_t* plant, double v)
     plant->command = v;
 }
 
+/// By how much a coercive field that follows the column sets back what the plays see of v.
+static double set_back(const plant_t* plant, double v, double temperature)
+{
+    const model_t* model = plant->model;
+    return (v - (model->input_max + model->input_min) / 2) * plant->p[0] *
+           (temperature + plant->p[1] * temperature * temperature);
+}
+
 /// The plays' weighted sum as the effects inside the hysteresis leave it.
 static double plays(plant_t* plant, double command, double temperature)
 {
@@ -257,8 +265,7 @@ static double plays(plant_t* plant, double command, double temperature)
     double v = field_inside(plant, command);
     double extra = 0;
     if (by(plant, "exogenous", "coercive_field")) {
-        v -= (v - (model->input_max + model->input_min) / 2) * plant->p[0] *
-             (temperature + plant->p[1] * temperature * temperature);
+        v -= set_back(plant, v, temperature);
     } else if (is(plant, "exogenous")) {
         extra = plant->p[2] * (temperature + plant->p[3] * temperature * temperature);
     }
@@ -544,6 +551,9 @@ static double material(plant_t* plant, double v, double temperature)
     double output = sum + (1 - share) * nonhysteretic(plant, v) + share * nonhysteretic(plant, plant->seen);
     if (by(plant, "noncongruency", "remanence_field")) {
         output = sum + nonhysteretic(plant, v + plant->p[1] * plant->p[0] * half_range * before);
+    }
+    if (by(plant, "exogenous", "coercive_field")) {
+        output = sum + nonhysteretic(plant, v - plant->p[2] * set_back(plant, v, temperature));
     }
     if (by(plant, "rate_dependence", "play_lag")) {
         output += plant->p[3] * middle_ahead(plant, v);
