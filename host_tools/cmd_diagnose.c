@@ -120,10 +120,11 @@ static double realised(const trial_t* trial)
 
 static json_t* trial_to_json(const trial_t* trial)
 {
-    return trial->is_measured
-               ? json_pack("{s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after", trial->after,
-                           "shrink", realised(trial), "predicted_shrink", trial->predicted)
-               : json_pack("{s:f}", "predicted_shrink", trial->predicted);
+    return trial->is_measured ? json_pack("{s:f, s:f, s:f, s:f, s:f}", "rmse", trial->before, "rmse_after",
+                                          trial->after, "shrink", realised(trial), "predicted_shrink",
+                                          trial->predicted, "extrapolated", trial->extrapolated)
+                              : json_pack("{s:f, s:f}", "predicted_shrink", trial->predicted, "extrapolated",
+                                          trial->extrapolated);
 }
 
 static void print_trial(const trial_t* trial)

@@ -43,6 +43,30 @@ static double predict(const squares_t* here, double added)
     return before > 0 ? 1 - after / sqrt(before) : 0;
 }
 
+/// The part of the test record's samples in which the use's column lies beyond the record's; with a warning.
+static double find_extrapolated(const effect_use_t* use, const record_t* record, const record_t* test)
+{
+    const double* known = record_find_auxiliary(record, use->column)->value;
+    const double* value = record_find_auxiliary(test, use->column)->value;
+    double low = use->has_reference ? use->reference : known[0];
+    double high = low;
+    for (size_t t = 0; t < record->num_samples; t++) {
+        low = fmin(low, known[t]);
+        high = fmax(high, known[t]);
+    }
+    size_t count = 0;
+    for (size_t t = 0; t < test->num_samples; t++) {
+        count += value[t] < low || value[t] > high;
+    }
+    if (count > 0) {
+        message_warning((location_t){.file = test->path},
+                        "in %zu of %zu samples the column \"%s\" lies outside %.9g ... %.9g, where the "
+                        "diagnosed record has it: the effect is continued there",
+                        count, test->num_samples, use->column, low, high);
+    }
+    return (double)count / (double)test->num_samples;
+}
+
 outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diagnosis, const record_t* record,
                     const record_t* test, trial_t* trial)
 {
@@ -59,5 +83,10 @@ outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diag
                        .before = sqrt(there.before),
                        .after = sqrt(there.after),
                        .predicted = predict(&here, there.added)};
+    for (size_t u = 0; u < num_uses; u++) {
+        if (uses[u].effect->needs_column) {
+            trial->extrapolated = fmax(trial->extrapolated, find_extrapolated(&uses[u], record, test));
+        }
+    }
     return OUTCOME_OK;
 }

@@ -9,10 +9,12 @@ typedef struct {
     double before, after; ///< RMSE of the plain and of the augmented model over what of the test record is
                           ///< judged (diagnose_scope.h)
     double predicted;     ///< shrink expected for the test record's input, its output not looked at
+    double extrapolated;  ///< part of the test record's samples in which a column that an effect follows lies
+                          ///< where the record never had it, so that its law is continued there
 } trial_t;
 
-/// diagnosis: of `record` and `model`, from `start`. OUTCOME_BAD_INPUT (reported) where the test record lacks
-/// a column that an effect follows.
+/// diagnosis: of `record` and `model`, from `start`. Warns of columns that go further than in `record`.
+/// OUTCOME_BAD_INPUT (reported) where the test record lacks a column that an effect follows.
 outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diagnosis, const record_t* record,
                     const record_t* test, trial_t* trial);
 

@@ -66,20 +66,10 @@ void effect_run_free(effect_run_t* run)
     *run = (effect_run_t){0};
 }
 
-static const column_t* find_column(const record_t* record, const char* name)
-{
-    for (size_t i = 0; record != NULL && i < record->num_auxiliary; ++i) {
-        if (strcmp(record->auxiliary[i].name, name) == 0) {
-            return &record->auxiliary[i];
-        }
-    }
-    return NULL;
-}
-
 outcome_t effect_check_columns(const record_t* record, const effect_use_t* uses, size_t num_uses)
 {
     for (size_t u = 0; u < num_uses; ++u) {
-        if (!uses[u].effect->needs_column || find_column(record, uses[u].column) != NULL) {
+        if (!uses[u].effect->needs_column || record_find_auxiliary(record, uses[u].column) != NULL) {
             continue;
         }
         char names[200] = "";
@@ -101,7 +91,9 @@ outcome_t effect_check_columns(const record_t* record, const effect_use_t* uses,
 /// The use's column as its effect takes it, allocated; NULL when it follows none.
 static double* centred_column(const effect_run_t* run, const effect_use_t* use)
 {
-    const column_t* column = use->effect->needs_column ? find_column(run->record, use->column) : NULL;
+    const column_t* column = use->effect->needs_column && run->record != NULL
+                                 ? record_find_auxiliary(run->record, use->column)
+                                 : NULL;
     if (column == NULL) {
         return NULL;
     }

@@ -374,3 +374,13 @@ bool record_is_carried(const record_t* record, size_t sample)
 {
     return record->carried != NULL && record->carried[sample];
 }
+
+const column_t* record_find_auxiliary(const record_t* record, const char* name)
+{
+    for (size_t i = 0; i < record->num_auxiliary; ++i) {
+        if (strcmp(record->auxiliary[i].name, name) == 0) {
+            return &record->auxiliary[i];
+        }
+    }
+    return NULL;
+}

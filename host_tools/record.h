@@ -34,6 +34,8 @@ typedef struct {
 outcome_t record_read(const char* path, const record_options_t* options, record_t* record);
 void record_free(record_t* record);
 bool record_is_carried(const record_t* record, size_t sample);
+/// The auxiliary column of that name, or NULL.
+const column_t* record_find_auxiliary(const record_t* record, const char* name);
 
 /// A column to write; integer: written as 0/1 rather than a real.
 typedef struct {

@@ -91,6 +91,26 @@ static void test_planned_work_needs_no_output(void)
     TEST_ASSERT_EQUAL_DOUBLE(0, planned.after);
 }
 
+/// A column that follows a law within 0 ... 1 of the diagnosed record and goes to 1.5 in a quarter of the
+/// next one's samples, but for those at 1: that part of the law was never seen.
+static void test_a_column_that_goes_further_is_told(void)
+{
+    static double here[SAMPLES];
+    static double there[SAMPLES];
+    for (size_t t = 0; t < SAMPLES; t++) {
+        here[t] = (double)t / (SAMPLES - 1);
+        there[t] = t < SAMPLES / 4 ? 1.5 : 1;
+    }
+    column_t columns[2] = {{"load", here}, {"load", there}};
+    slow.record.num_auxiliary = fast.record.num_auxiliary = 1;
+    slow.record.auxiliary = &columns[0];
+    fast.record.auxiliary = &columns[1];
+    const effect_use_t gain = {.effect = &effect_exogenous, .parameter = {0.1}, .column = "load"};
+    TEST_ASSERT_EQUAL_DOUBLE(0.25, try_on_fast_work(&gain).extrapolated);
+    const effect_use_t lag = {.effect = &effect_output_lag, .parameter = {0.05}};
+    TEST_ASSERT_EQUAL_DOUBLE(0, try_on_fast_work(&lag).extrapolated);
+}
+
 /// A course that this plant does not have is run with the rest, as `simulate` runs the written model.
 static void test_drift_is_tried_as_written(void)
 {
@@ -134,6 +154,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_shrink_is_predicted_for_other_work);
     RUN_TEST(test_planned_work_needs_no_output);
+    RUN_TEST(test_a_column_that_goes_further_is_told);
     RUN_TEST(test_drift_is_tried_as_written);
     RUN_TEST(test_a_start_that_is_left_out_is_not_judged);
     RUN_TEST(test_missing_column_is_refused);
