@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SINGLES = 64, MAX_HYPOTHESES = 100 };
 enum { ITERATIONS = 20, BRIEF_EVALUATIONS = 24, LEADING_SINGLES = 6, REFINED = 6, MOST_FURTHER = 3 };
+/// Pairs once, and triples once.
+enum { MOST_JOINT = 2 * REFINED };
 
 /// A fit this much above what it contains has not yet arrived; below, there is nothing to arrive at.
 static const double hardly_worse = 1.001;
@@ -21,10 +22,21 @@ static hypothesis_t* add(candidates_t* c, const effect_use_t* uses, size_t num_u
     return hypothesis;
 }
 
+/// One of each mechanism, or one for each column that it may follow.
+static size_t most_singles(const gap_t* gap)
+{
+    const record_t* record = gap->run->record;
+    size_t count = 0;
+    for (size_t i = 0; i < effect_count(); i++) {
+        count += !effect_at(i)->needs_column ? 1 : record != NULL ? record->num_auxiliary : 0;
+    }
+    return count;
+}
+
 candidates_t candidates_new(const gap_t* gap, const record_t* calibration, size_t num_threads)
 {
     candidates_t c = {.gap = gap, .calibration = calibration, .num_threads = num_threads};
-    c.hypothesis = xcalloc(MAX_HYPOTHESES, sizeof *c.hypothesis);
+    c.hypothesis = xcalloc(1 + most_singles(gap) + MOST_JOINT, sizeof *c.hypothesis);
     hypothesis_t* plain = add(&c, NULL, 0);
     hypothesis_search(plain, gap, false, 1);
     return c;
@@ -43,7 +55,7 @@ static int evaluations_of(const hypothesis_t* hypothesis)
 static void add_single(candidates_t* c, const effect_t* effect, const char* column)
 {
     // How coarse a converter is stands in the record's own values (diagnose_grid.h).
-    if (c->count > MAX_SINGLES || effect->superseded || effect->rounds) {
+    if (effect->superseded || effect->rounds) {
         return;
     }
     effect_use_t use = {.effect = effect};
@@ -406,7 +418,7 @@ static void refit_parts(candidates_t* c, size_t first)
 
 void candidates_add_pairs(candidates_t* c)
 {
-    hypothesis_t leader[MAX_SINGLES];
+    hypothesis_t* leader = xcalloc(c->num_singles, sizeof *leader);
     const size_t singles = leading_singles(c, leader);
     extension_t* pair = xcalloc(singles * LEADING_SINGLES + 1, sizeof *pair);
     size_t count = 0;
@@ -418,12 +430,13 @@ void candidates_add_pairs(candidates_t* c)
     add_best(c, pair, count, (parallel_progress_t){"diagnose", 0.4, 0.6},
              (parallel_progress_t){"diagnose", 0.6, 0.7});
     free(pair);
+    free(leader);
     refit_parts(c, 1 + c->num_singles);
 }
 
 void candidates_add_triples(candidates_t* c)
 {
-    hypothesis_t leader[MAX_SINGLES];
+    hypothesis_t* leader = xcalloc(c->num_singles, sizeof *leader);
     const size_t singles = leading_singles(c, leader);
     const hypothesis_t* best = NULL;
     for (size_t i = c->num_singles + 1; i < c->count; i++) {
@@ -432,7 +445,7 @@ void candidates_add_triples(candidates_t* c)
             best = &c->hypothesis[i];
         }
     }
-    extension_t triple[MAX_SINGLES];
+    extension_t* triple = xcalloc(singles + 1, sizeof *triple);
     const size_t first = c->count;
     size_t count = 0;
     for (size_t j = 0; best != NULL && j < singles; j++) {
@@ -442,5 +455,7 @@ void candidates_add_triples(candidates_t* c)
     }
     add_best(c, triple, count, (parallel_progress_t){"diagnose", 0.7, 0.75},
              (parallel_progress_t){"diagnose", 0.75, 0.8});
+    free(triple);
+    free(leader);
     refit_parts(c, first);
 }

@@ -101,19 +101,24 @@ static void run_plant(double lag, double gain_per_degree)
     run_plant_heated(lag, gain_per_degree, 0);
 }
 
-static void run_diagnosis_on(size_t num_threads)
+static void run_diagnosis_beside(column_t* columns, size_t num_columns, size_t num_threads)
 {
-    column_t column = {"temperature", column_value};
     const record_t record = {.path = "made.csv",
                              .num_samples = SAMPLES,
                              .time = time_of,
                              .input = input,
                              .output = output,
-                             .num_auxiliary = 1,
-                             .auxiliary = &column};
+                             .num_auxiliary = num_columns,
+                             .auxiliary = columns};
     const diagnose_options_t options = {
         .calibration_rmse = noise, .calibration_noise = noise, .num_threads = num_threads};
     TEST_ASSERT_EQUAL(OUTCOME_OK, diagnose(&model, &record, &options, &diagnosis));
+}
+
+static void run_diagnosis_on(size_t num_threads)
+{
+    column_t column = {"temperature", column_value};
+    run_diagnosis_beside(&column, 1, num_threads);
 }
 
 static void run_diagnosis(void)
@@ -159,6 +164,29 @@ static void test_column_is_named(void)
     make_input(3);
     run_plant(0, 0.02);
     run_diagnosis();
+    const effect_use_t* use = only_effect();
+    TEST_ASSERT_EQUAL_STRING("exogenous", use->effect->name);
+    TEST_ASSERT_EQUAL_STRING("temperature", use->column);
+}
+
+/// A logger's thirty others go their own ways; the last one counts as much as the first.
+static void test_column_is_named_among_many(void)
+{
+    enum { OTHERS = 30 };
+    static double other[OTHERS][SAMPLES];
+    static char name[OTHERS][8];
+    column_t columns[OTHERS + 1];
+    for (size_t k = 0; k < OTHERS; k++) {
+        for (size_t t = 0; t < SAMPLES; t++) {
+            other[k][t] = sin((1e-3 + 2e-4 * (double)k) * (double)t + (double)k);
+        }
+        snprintf(name[k], sizeof name[k], "load%zu", k);
+        columns[k] = (column_t){name[k], other[k]};
+    }
+    columns[OTHERS] = (column_t){"temperature", column_value};
+    make_input(3);
+    run_plant(0, 0.02);
+    run_diagnosis_beside(columns, OTHERS + 1, 0);
     const effect_use_t* use = only_effect();
     TEST_ASSERT_EQUAL_STRING("exogenous", use->effect->name);
     TEST_ASSERT_EQUAL_STRING("temperature", use->column);
@@ -331,6 +359,7 @@ int main(void)
     RUN_TEST(test_noise_alone_is_no_cause);
     RUN_TEST(test_output_lag_is_named_and_sized);
     RUN_TEST(test_column_is_named);
+    RUN_TEST(test_column_is_named_among_many);
     RUN_TEST(test_two_effects_are_both_named);
     RUN_TEST(test_threads_change_nothing);
     RUN_TEST(test_coarse_steps_are_named_beside_a_lag);
