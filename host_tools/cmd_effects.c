@@ -14,22 +14,28 @@ static const char* stage_name(effect_stage_t stage)
     return names[stage];
 }
 
-static const char symbols[] =
-    "Symbols: v the input on its way to the plays, y the output on its way from them, v' and y' the same "
-    "behind the effect\n"
-    "(dv'/dt: over time), t the time; w_j and r_j output and radius of play j, r_N the largest radius; S the "
-    "plays' weighted sum,\n"
-    "S_m and S_h middle and half of its span between the saturations; level(v) from -1 to 1 over the model's "
-    "input range,\n"
-    "v_m and half_range its middle and half; y_m and half_span the middle and half of the model's output "
-    "between the\n"
-    "saturations, m(v) the middle of its major loop; spans the input's travel since the record's start over "
-    "that range, s the\n"
-    "same with each move counted (its rate / speed)^speed_power times; c the auxiliary column, counted from "
-    "\"reference\" (left\n"
-    "out: from the record's first value); LP_k six lags of first order, evenly in the logarithm from "
-    "tau_fast "
-    "to tau_slow.\n";
+static const char symbols[] = "Symbols: v the input on its way to the plays, y the output on its way from "
+                              "them, v' and y' the same behind the "
+                              "effect;\n"
+                              "t the time, t0 the record's first; w_j and r_j output and radius of play j, "
+                              "r_N the largest radius; S the plays' "
+                              "weighted\n"
+                              "sum, dS its change, S_m and S_h middle and half of its span between the "
+                              "saturations; level(v) from -1 to 1 over "
+                              "the model's\n"
+                              "input range, v_m and half_range that range's middle and half; y_m and "
+                              "half_span middle and half of the model's "
+                              "output between\n"
+                              "the saturations, m(v) the middle of its major loop; spans the input's travel "
+                              "since the record's start in widths "
+                              "of the model's\n"
+                              "input range, s the same with each move counted (how fast it is / "
+                              "speed)^speed_power times; c the auxiliary column "
+                              "named by\n"
+                              "\"column\", counted from \"reference\" (left out: from the record's first "
+                              "value); LP a lag of first order, LP_k "
+                              "six of them evenly\n"
+                              "in the logarithm from tau_fast to tau_slow.\n";
 
 static void print_range(const effect_parameter_t* parameter)
 {
@@ -138,6 +144,7 @@ static json_t* effect_json(const effect_t* effect)
     json_object_set_new(object, "what", json_string(effect->what));
     json_object_set_new(object, "law", json_string(effect->law));
     json_object_set_new(object, "stage", json_string(stage_name(effect->stage)));
+    json_object_set_new(object, "needs_column", json_boolean(effect->needs_column));
     json_object_set_new(object, "transferable", json_boolean(effect->transferable));
     json_object_set_new(object, "invertible", json_boolean(effect->no_inverse == NULL));
     json_t* parameters = json_array();
@@ -163,9 +170,13 @@ outcome_t cmd_effects(int argc, const char** argv)
 {
     static const command_t command = {
         "effects", "", 0,
-        "Lists every effect that a model file may hold and `hyst diagnose` may name, in the order in which "
-        "they run:\n"
-        "what it is, its mechanisms, their equations and their parameters with units and physical ranges."};
+        "Lists every effect of model files and diagnoses: what it is, its mechanisms, their equations and "
+        "their "
+        "parameters with\n"
+        "units and physical ranges. Those of the drive run first, then hysteresis, body and sensor, within "
+        "each in "
+        "this order.\n"
+        "\"unknown\" is what a diagnosis alone may find: no model file holds it."};
     int json = 0;
     const struct poptOption options[] = {
         {"json", 0, POPT_ARG_NONE, &json, 0, "a list of objects for programs", NULL}, POPT_TABLEEND};

@@ -37,7 +37,8 @@ typedef struct {
     loop_middle_t* body_middle; ///< or NULL, where the model's plays are all there is
     gap_t gap;
     candidates_t candidates;
-    scale_t scale;
+    scale_t scale;     ///< of the output's errors
+    scale_t judged;    ///< of those that hypotheses are weighed by: beyond half a converter's step
     double correction; ///< mean square of what the body adds to the model over the judged samples
     grid_step_t grid;  ///< that the output lies on and the calibration's does not
     double plain_error[HYPOTHESIS_BLOCKS]; ///< of the model alone: sum of squares of each block
@@ -232,7 +233,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict, const hypothes
     run.everett = w->run.everett;
     run.body_middle = w->run.body_middle;
     gap_t gap = gap_new(w->gap.model, &run, w->gap.start, fitted.output, fitted.carried, &nothing,
-                        w->gap.filter[0].variance);
+                        w->gap.variance * fmax((double)fitted.num_samples / (double)w->run.num_samples, 1));
     gap.dead_zone = w->gap.dead_zone;
     hypothesis_t* hypothesis = own(w, verdict);
     hypothesis_t searched = without_grid(w, found);
@@ -317,6 +318,12 @@ static double least_left(const candidates_t* c)
 /// price where it leaves far less than the floor, which is known no better.
 static const double worth_grains = 0.2;
 
+static void lower_floors(work_t* w)
+{
+    scale_lower(&w->scale, least_left(&w->candidates));
+    scale_lower(&w->judged, least_left(&w->candidates));
+}
+
 /// Searches until one more effect cannot be worth its price.
 static void search(work_t* w, double noise)
 {
@@ -328,14 +335,18 @@ static void search(work_t* w, double noise)
     w->scale = scale_new(
         noise * noise, w->body.misfit * w->body.misfit, w->body.doubt * w->correction,
         fmax(hypothesis_mean_square(&c->hypothesis[0]), w->plain_rmse * w->plain_rmse - w->correction));
+    w->judged = w->grid.step > 0
+                    ? scale_behind_steps(&w->scale, w->grid.step, hypothesis_mean_square(&c->hypothesis[0]),
+                                         w->gap.num_judged)
+                    : w->scale;
     candidates_add_singles(c);
-    scale_lower(&w->scale, least_left(c));
-    const double pair_from = worth_grains * w->scale.grain + scale_least_floor(&w->scale);
-    if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->scale, c)]) > pair_from) {
+    lower_floors(w);
+    const double pair_from = worth_grains * w->judged.grain + scale_least_floor(&w->judged);
+    if (hypothesis_mean_square(&c->hypothesis[verdict_best(&w->judged, c)]) > pair_from) {
         candidates_add_pairs(c);
-        scale_lower(&w->scale, least_left(c));
-        const double worth = worth_grains * w->scale.grain + w->scale.floor;
-        const hypothesis_t* best = &c->hypothesis[verdict_best(&w->scale, c)];
+        lower_floors(w);
+        const double worth = worth_grains * w->judged.grain + w->judged.floor;
+        const hypothesis_t* best = &c->hypothesis[verdict_best(&w->judged, c)];
         if (best->num_uses == 2 && !(w->grid.step > 0) && hypothesis_mean_square(best) > worth) {
             candidates_add_triples(c);
         }
@@ -362,7 +373,7 @@ outcome_t diagnose(const model_t* model, const record_t* record, const diagnose_
     const double noise = options->calibration_noise > 0 ? fmin(here, options->calibration_noise) : here;
     search(&w, noise);
     describe_gap(&w, d);
-    verdict_find(&w.scale, &w.candidates, d);
+    verdict_find(&w.judged, &w.candidates, d);
     judge_causes(&w, d);
     mind_scope(&w, d);
     mind_outside(d);

@@ -273,7 +273,8 @@ enum { STEP = 1 };
 /// What lmdif returns when it ends for want of evaluations.
 enum { OUT_OF_EVALUATIONS = 5 };
 
-/// What it costs that parameters are off where plants have them, in units of the noise.
+/// What it costs that parameters are off where plants have them, in what an independent piece of the record
+/// counts.
 static void price_scatter(const search_t* s, double* residual)
 {
     for (size_t i = 0; i < s->num_free; i++) {

@@ -35,7 +35,8 @@ size_t gap_block_of(const gap_t* gap, size_t sample);
 typedef struct {
     size_t num_uses; ///< 0: the plain model
     effect_use_t use[HYPOTHESIS_MAX_EFFECTS];
-    double fit_rmse; ///< fitted to the whole record, the price of what the body leaves open included
+    double fit_rmse; ///< fitted to the whole record, the prices of what the body leaves open and of
+                     ///< parameters off where plants have them (scatter) included
     bool cut_short;  ///< the last fit had not settled when its evaluations were used up
     bool is_another; ///< an effect's parameters make it another effect, or an answer to the input
     double block_error[HYPOTHESIS_BLOCKS]; ///< sum of squares of each block, predicted by a fit to the other

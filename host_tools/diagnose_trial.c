@@ -43,27 +43,53 @@ static double predict(const squares_t* here, double added)
     return before > 0 ? 1 - after / sqrt(before) : 0;
 }
 
-/// The part of the test record's samples in which the use's column lies beyond the record's; with a warning.
-static double find_extrapolated(const effect_use_t* use, const record_t* record, const record_t* test)
+/// Of a column's range, how far beyond it is still known: two records of the same work differ by as much.
+static const double known_beyond = 0.1;
+
+/// Marks the test record's samples in which the use's column, counted as its effect counts it, lies beyond
+/// where the diagnosed record or, at the reference, the bench had it; with a warning.
+static void mark_extrapolated(const effect_use_t* use, const record_t* record, const record_t* test,
+                              bool* is_beyond)
 {
     const double* known = record_find_auxiliary(record, use->column)->value;
     const double* value = record_find_auxiliary(test, use->column)->value;
-    double low = use->has_reference ? use->reference : known[0];
-    double high = low;
+    const double from_known = use->has_reference ? use->reference : known[0];
+    const double from = use->has_reference ? use->reference : value[0];
+    double low = 0;
+    double high = 0;
     for (size_t t = 0; t < record->num_samples; t++) {
-        low = fmin(low, known[t]);
-        high = fmax(high, known[t]);
+        low = fmin(low, known[t] - from_known);
+        high = fmax(high, known[t] - from_known);
     }
+    const double margin = known_beyond * (high - low);
     size_t count = 0;
     for (size_t t = 0; t < test->num_samples; t++) {
-        count += value[t] < low || value[t] > high;
+        const bool beyond = value[t] - from < low - margin || value[t] - from > high + margin;
+        is_beyond[t] = is_beyond[t] || beyond;
+        count += beyond;
     }
     if (count > 0) {
         message_warning((location_t){.file = test->path},
-                        "in %zu of %zu samples the column \"%s\" lies outside %.9g ... %.9g, where the "
-                        "diagnosed record has it: the effect is continued there",
-                        count, test->num_samples, use->column, low, high);
+                        "in %zu of %zu samples the column \"%s\" lies outside %.9g ... %.9g, where bench and "
+                        "diagnosed record have it: the effect is continued there",
+                        count, test->num_samples, use->column, from + low, from + high);
     }
+}
+
+static double find_extrapolated(const effect_use_t* uses, size_t num_uses, const record_t* record,
+                                const record_t* test)
+{
+    bool* is_beyond = xcalloc(test->num_samples, sizeof *is_beyond);
+    for (size_t u = 0; u < num_uses; u++) {
+        if (uses[u].effect->needs_column) {
+            mark_extrapolated(&uses[u], record, test, is_beyond);
+        }
+    }
+    size_t count = 0;
+    for (size_t t = 0; t < test->num_samples; t++) {
+        count += is_beyond[t];
+    }
+    free(is_beyond);
     return (double)count / (double)test->num_samples;
 }
 
@@ -82,11 +108,7 @@ outcome_t trial_run(const model_t* model, start_t start, const diagnosis_t* diag
     *trial = (trial_t){.is_measured = test->output != NULL,
                        .before = sqrt(there.before),
                        .after = sqrt(there.after),
-                       .predicted = predict(&here, there.added)};
-    for (size_t u = 0; u < num_uses; u++) {
-        if (uses[u].effect->needs_column) {
-            trial->extrapolated = fmax(trial->extrapolated, find_extrapolated(&uses[u], record, test));
-        }
-    }
+                       .predicted = predict(&here, there.added),
+                       .extrapolated = find_extrapolated(uses, num_uses, record, test)};
     return OUTCOME_OK;
 }

@@ -9,8 +9,9 @@ typedef struct {
     double before, after; ///< RMSE of the plain and of the augmented model over what of the test record is
                           ///< judged (diagnose_scope.h)
     double predicted;     ///< shrink expected for the test record's input, its output not looked at
-    double extrapolated;  ///< part of the test record's samples in which a column that an effect follows lies
-                          ///< where the record never had it, so that its law is continued there
+    double
+        extrapolated; ///< part of the test record's samples in which a column that an effect follows lies
+                      ///< well outside of where bench and record had it, so that its law is continued there
 } trial_t;
 
 /// diagnosis: of `record` and `model`, from `start`. Warns of columns that go further than in `record`.

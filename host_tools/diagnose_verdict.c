@@ -5,7 +5,7 @@
 #include <string.h>
 
 /// Grain in parts of floor and gap.
-static const double floor_grain = 0.14;
+static const double known_floor_grain = 0.14;
 static const double gap_grain = 5e-4;
 /// Where an explanation leaves less than the floor expected, the body cannot be much worse than that.
 static const double floor_over_least = 1.5;
@@ -20,14 +20,47 @@ scale_t scale_new(double noise, double misfit, double doubt, double gap)
     scale_t scale = {.noise = noise, .known = known};
     // A body misfits more on other work than on its calibration (THEORY section 6).
     scale.floor = known + (known - noise) + doubt;
-    scale.grain = floor_grain * scale.floor + gap_grain * gap;
+    scale.floor_grain = known_floor_grain;
+    scale.grain = scale.floor_grain * scale.floor + gap_grain * gap;
     return scale;
+}
+
+/// The mean of what normal errors of standard deviation 1 have beyond h, cubed.
+static double cube_beyond(double h)
+{
+    const double density = exp(-0.5 * h * h) / sqrt(2 * acos(-1));
+    const double above = 0.5 * erfc(h / sqrt(2));
+    return (2 + h * h) * density - (3 * h + h * h * h) * above;
+}
+
+static double mean_square_behind_steps(double mean_square, double step)
+{
+    const double s = sqrt(mean_square);
+    return s > 0 ? 2 * s * s * s / (3 * step) * (cube_beyond(0) - cube_beyond(step / s)) : 0;
+}
+
+/// A body misfits up to so many times more on other work than on its bench (THEORY section 6). What is left
+/// behind a step goes with the cube of that: it is known to half of itself.
+static const double misfit_grows = 2;
+static const double known_behind_steps = 0.5;
+
+scale_t scale_behind_steps(const scale_t* scale, double step, double gap, size_t samples)
+{
+    const double wide = misfit_grows * misfit_grows;
+    scale_t behind = {.noise = mean_square_behind_steps(scale->noise, step),
+                      .known = mean_square_behind_steps(wide * scale->known, step),
+                      .floor = mean_square_behind_steps(wide * scale->floor, step)};
+    // The squares' own variance over that of their mean: E d^4 = 1.28 s^5 / step.
+    const double of_samples = scale->floor > 0 ? 4.5 * step / (sqrt(scale->floor) * (double)samples) : 0;
+    behind.floor_grain = sqrt(known_behind_steps * known_behind_steps + of_samples);
+    behind.grain = behind.floor_grain * behind.floor + gap_grain * gap;
+    return behind;
 }
 
 void scale_lower(scale_t* scale, double least)
 {
     const double floor = fmin(scale->floor, fmax(scale->known, floor_over_least * least));
-    scale->grain += floor_grain * (floor - scale->floor);
+    scale->grain += scale->floor_grain * (floor - scale->floor);
     scale->floor = floor;
 }
 

@@ -95,18 +95,17 @@ static void configure_coercive(const effect_run_t* run, const double* parameter,
                                hysteresis_t* hysteresis)
 {
     follow(run, parameter[COERCIVE], parameter[COERCIVE_BEND], column, &hysteresis->coercive);
-    if (fabs(parameter[COERCIVE]) > 0.0) {
-        hysteresis->coercive_share = parameter[COERCIVE_SHARE];
-    }
+    follow(run, parameter[COERCIVE] * parameter[COERCIVE_SHARE], parameter[COERCIVE_BEND], column,
+           &hysteresis->coercive_direct);
 }
 
 static const char what[] =
-    "gain, offset or width follow a measured auxiliary column c (temperature, load, supply pressure)";
+    "gain, offset, width or coercive field follow a measured column c (temperature, load, supply pressure)";
 
 const effect_t effect_exogenous = {
     .name = "exogenous",
     .what = what,
-    .law = "y' = y (1 + gain q) + offset q, r_j' = r_j + width q, q = c (1 + bend c)",
+    .law = "y' = y (1 + gain q) + offset q, r_j' = max(r_j + width q, 0), q = c (1 + bend c)",
     .stage = EFFECT_BODY,
     .transferable = true,
     .needs_column = true,
@@ -124,7 +123,7 @@ const effect_t effect_exogenous_coercive_field = {
     .mechanism = "coercive_field",
     .what = what,
     .law = "the hysteretic part sees v_m + (v - v_m) (1 - coercive q), q = c (1 + bend c)\n"
-           "share: how much of the nonhysteretic part sees it too",
+           "share: the nonhysteretic part sees v - share (v - v_m) coercive q",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .needs_column = true,

@@ -128,7 +128,7 @@ const effect_t effect_noncongruency_moving = {
     .name = "noncongruency",
     .mechanism = "moving",
     .what = what,
-    .law = "the plays see v + moving half_range (S - S_m) / S_h",
+    .law = "the plays see v + moving half_range (S - S_m) / S_h, the fraction held to +-1",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(moving_parameter),
@@ -157,7 +157,7 @@ const effect_t effect_noncongruency_remanence_field = {
     .mechanism = "remanence_field",
     .what = what,
     .law = "the plays see v + field half_range (y - m(v)) / half_span\n"
-           "share: how much of the nonhysteretic part sees it too",
+           "share: the nonhysteretic part sees v + share of that shift",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(field_parameters),

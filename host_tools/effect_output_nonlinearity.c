@@ -153,7 +153,8 @@ const effect_t effect_output_nonlinearity_two_point = {
     .name = "output_nonlinearity",
     .mechanism = "two_point",
     .what = what,
-    .law = "y' = y + half_span (1 - z^2) (bow + skew (1/2 - |bow|) z), z = (y - y_m) / half_span",
+    .law = "y' = y + half_span (1 - z^2) (bow + skew (1/2 - |bow|) z), z = (y - y_m) / half_span; "
+           "straight on beyond |z| = 1",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(two_point_parameters),
@@ -167,7 +168,8 @@ const effect_t effect_output_nonlinearity_polynomial = {
     .name = "output_nonlinearity",
     .mechanism = "polynomial",
     .what = what,
-    .law = "y' = y + half_span (shift + linear z + quadratic z^2 + cubic z^3), z = (y - y_m) / half_span",
+    .law = "y' = y + half_span (shift + linear z + quadratic z^2 + cubic z^3), z = (y - y_m) / half_span; "
+           "straight on beyond |z| = 1",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

@@ -75,7 +75,8 @@ static void invert(const effect_run_t* run, const double* parameter, const doubl
 const effect_t effect_output_saturation = {
     .name = "output_saturation",
     .what = "the output clips (an amplifier's rail, a converter's range, an end stop)",
-    .law = "y' = max(low, min(high, y)), corners rounded over knee",
+    .law = "y' = max(low, min(high, y)), with min(high, y) = y - knee log(1 + exp((y - high) / knee)), max "
+           "likewise",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(parameters),

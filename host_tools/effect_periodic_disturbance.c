@@ -167,8 +167,10 @@ const effect_t effect_periodic_disturbance_run_up = {
     .name = "periodic_disturbance",
     .mechanism = "run_up",
     .what = what,
-    .law = "the same with frequency t + shift exp(-t/settling), amplitudes (1 + swell exp(-t/settling)) "
-           "times as large",
+    .law =
+        "y' = y + (1 + swell x) sum_h amplitude_sin_h sin(2 pi h (frequency t + shift x)) + amplitude_cos_h "
+        "cos(...),\n"
+        "x = exp(-(t - t0) / settling)",
     .stage = EFFECT_SENSOR,
     .transferable = true,
     .num_parameters = COUNT_OF(run_up_parameters),

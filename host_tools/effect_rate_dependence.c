@@ -159,7 +159,8 @@ const effect_t effect_rate_dependence_play_lag = {
     .mechanism = "play_lag",
     .what = what,
     .law =
-        "tau_j dw_j/dt = (where Eq. (6) puts the play, given w_j) - w_j, tau_j = tau (1 + spread r_j / r_N)\n"
+        "tau_j dw_j/dt = (where the model puts the play, given w_j) - w_j, tau_j = tau (1 + spread r_j / "
+        "r_N)\n"
         "approach: how fast the input came to its first sample from the range's other end (0: at leisure), "
         "where the plays\n"
         "stood as a way within the range had put them (beyond 0) or one from far outside (1); direct: the "
@@ -194,7 +195,7 @@ const effect_t effect_rate_dependence_diffusion = {
     .name = "rate_dependence",
     .mechanism = "diffusion",
     .what = what,
-    .law = "the plays see the field inside a conductor, which diffuses across it within tau\n"
+    .law = "the plays see the mean field in a lamination, sum_k 8 / (pi (2k+1))^2 LP(v; tau / (2k+1)^2)\n"
            "share: how much of the nonhysteretic part sees it too; hold as for an input_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
@@ -209,8 +210,10 @@ const effect_t effect_rate_dependence_excess = {
     .name = "rate_dependence",
     .mechanism = "excess",
     .what = what,
-    .law = "the plays see v less excess sqrt(|rate|) in the direction of motion\n"
-           "share: how much of the nonhysteretic part sees it too; hold as for an input_lag",
+    .law =
+        "the plays see u, du/dt = ((v - u) / excess)^2 with the sign of v - u: on a ramp excess sqrt(rate) "
+        "behind\n"
+        "share: how much of the nonhysteretic part sees it too; hold as for an input_lag",
     .stage = EFFECT_HYSTERESIS,
     .transferable = true,
     .num_parameters = COUNT_OF(excess_parameters),

@@ -125,7 +125,7 @@ const effect_t effect_resonance = {
     .name = "resonance",
     .what = "second-order, lightly damped mode behind the hysteresis (the stage on the actuator)",
     .law =
-        "m'' + 2 damping w m' + w^2 m = w^2 y, w = 2 pi frequency; y' = (1 - direct) m + direct y\n"
+        "y' = (1 - direct) x + direct y, d^2x/dt^2 + 2 damping w dx/dt + w^2 x = w^2 y, w = 2 pi frequency\n"
         "hold, late: between the samples y goes straight (0, 0), is at once where the next has it (1, 0) or "
         "stays (0, 1)",
     .stage = EFFECT_SENSOR,

@@ -215,8 +215,8 @@ static void add_direct(const effect_run_t* run, const model_t* model, const stan
         if (drive[i] < seen || drive[i] > seen) {
             const double field = sight->field[i];
             const double shift =
-                hysteresis->coercive_share * (hysteresis_seen(hysteresis, model, i, field) - field) +
-                (hysteresis->shift != NULL ? hysteresis->shift_share * hysteresis->shift[i] : 0.0);
+                (hysteresis->shift != NULL ? hysteresis->shift_share * hysteresis->shift[i] : 0.0) -
+                hysteresis_set_back(hysteresis, model, i, field);
             const double direct = nonhysteretic_at(run, model, body, drive[i] + shift);
             const double shared = share > 0.0 ? nonhysteretic_at(run, model, body, field + shift) : direct;
             output[i] += direct + share * (shared - direct) - nonhysteretic_at(run, model, body, seen);
@@ -290,7 +290,7 @@ static void run_body(const effect_run_t* run, const model_t* model, start_t star
     hysteresis_t neutral = hysteresis_neutral();
     neutral.field = hysteresis->field;
     neutral.coercive = hysteresis->coercive;
-    neutral.coercive_share = hysteresis->coercive_share;
+    neutral.coercive_direct = hysteresis->coercive_direct;
     neutral.shift = hysteresis->shift;
     neutral.shift_share = hysteresis->shift_share;
     double* plain = xmalloc(run->num_samples * sizeof(double));

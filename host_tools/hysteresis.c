@@ -15,6 +15,7 @@ void hysteresis_free(hysteresis_t* hysteresis)
 {
     free(hysteresis->width);
     free(hysteresis->coercive);
+    free(hysteresis->coercive_direct);
     *hysteresis = hysteresis_neutral();
 }
 
@@ -61,16 +62,16 @@ static double level(const model_t* model, double v)
 /// A command on its way to the plays.
 typedef struct {
     double command;
-    double field; ///< inside
-    double seen;  ///< before the mean fields
+    double field;    ///< inside
+    double seen;     ///< before the mean fields
+    double set_back; ///< by which the nonhysteretic part sees less
 } arrival_t;
 
 /// The nonhysteretic part where the plays see `seen`.
 static double nonhysteretic_at(const hysteresis_state_t* state, const arrival_t* to, double seen)
 {
     const curve_t* nonhysteretic = &state->model->nonhysteretic;
-    const double shift = state->hysteresis->shift_share * (seen - to->seen) +
-                         state->hysteresis->coercive_share * (to->seen - to->field);
+    const double shift = state->hysteresis->shift_share * (seen - to->seen) - to->set_back;
     const double direct = curve_value(nonhysteretic, to->command + shift);
     return differs(to->command - to->field)
                ? direct +
@@ -78,10 +79,21 @@ static double nonhysteretic_at(const hysteresis_state_t* state, const arrival_t*
                : direct;
 }
 
-double hysteresis_seen(const hysteresis_t* hysteresis, const model_t* model, size_t sample, double field)
+/// What scaling by 1 - factor about the range's middle takes away.
+static double taken(const model_t* model, const double* factor, size_t sample, double field)
 {
     const double middle = 0.5 * (model->input_min + model->input_max);
-    return hysteresis->coercive != NULL ? field - hysteresis->coercive[sample] * (field - middle) : field;
+    return factor != NULL ? factor[sample] * (field - middle) : 0.0;
+}
+
+double hysteresis_seen(const hysteresis_t* hysteresis, const model_t* model, size_t sample, double field)
+{
+    return field - taken(model, hysteresis->coercive, sample, field);
+}
+
+double hysteresis_set_back(const hysteresis_t* hysteresis, const model_t* model, size_t sample, double field)
+{
+    return taken(model, hysteresis->coercive_direct, sample, field);
 }
 
 double hysteresis_remanent_shift(const hysteresis_t* hysteresis, const model_t* model, double v, double y)
@@ -170,7 +182,9 @@ static outlook_t look(const hysteresis_state_t* state, double v, double step, fi
         field_move(&hysteresis->field, field, v, step);
         inside = field->seen;
     }
-    const arrival_t to = {v, inside, hysteresis_seen(hysteresis, state->model, state->sample + 1, inside)};
+    const size_t sample = state->sample + 1;
+    const arrival_t to = {v, inside, hysteresis_seen(hysteresis, state->model, sample, inside),
+                          hysteresis_set_back(hysteresis, state->model, sample, inside)};
     next.seen = shifted(state, &to, step);
     next.nonhysteretic = nonhysteretic_at(state, &to, next.seen);
     next.strip = plays_move(state, next.seen, step, scratch);

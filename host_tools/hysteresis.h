@@ -43,7 +43,7 @@ typedef struct {
     double* width;       ///< [num_samples] owned: extra envelope units on every radius (exogenous), or NULL
     double* coercive;    ///< [num_samples] owned: what the plays see, about the range's middle, scales by 1 -
                          ///< this (exogenous), or NULL
-    double coercive_share; ///< 0 ... 1: how much of that the nonhysteretic part sees too
+    double* coercive_direct; ///< [num_samples] owned: the same of what the nonhysteretic part sees, or NULL
     const double*
         start_fraction; ///< [num_nodes] initial_state: where a play begins, node by node over the radii,
                         ///< between its strip's bottom (-1), the run's own start (0) and its top (1); or NULL
@@ -65,6 +65,9 @@ void hysteresis_free(hysteresis_t* hysteresis);
 /// Whether the plays themselves run as in the plain model, only on another input and with
 /// another use of their sum, once the past has turned where it did.
 bool hysteresis_keeps_plays(const hysteresis_t* hysteresis);
+/// By how much the nonhysteretic part sees less than the field at a sample, where a coercive field takes it
+/// along.
+double hysteresis_set_back(const hysteresis_t* hysteresis, const model_t* model, size_t sample, double field);
 /// Whether the output's slope goes with the remanence.
 bool hysteresis_is_stiffened(const hysteresis_t* hysteresis);
 /// What that makes of an output y at v.

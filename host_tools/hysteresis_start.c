@@ -145,8 +145,8 @@ hysteresis_state_t hysteresis_start(const model_t* model, start_t start, const h
         state.ahead = hysteresis->lag_direct * (state.middle - state.lagged_middle);
     }
     state.sum = plays_sum(model, state.memory);
-    state.nonhysteretic =
-        curve_value(&model->nonhysteretic, first_input + hysteresis->coercive_share * (seen - first_input));
+    state.nonhysteretic = curve_value(&model->nonhysteretic,
+                                      first_input - hysteresis_set_back(hysteresis, model, 0, first_input));
     plays_set_sum_range(&state);
     return state;
 }

@@ -91,15 +91,16 @@ static void test_planned_work_needs_no_output(void)
     TEST_ASSERT_EQUAL_DOUBLE(0, planned.after);
 }
 
-/// A column that follows a law within 0 ... 1 of the diagnosed record and goes to 1.5 in a quarter of the
-/// next one's samples, but for those at 1: that part of the law was never seen.
+/// The diagnosed record has the column from 0 to 1. The next one begins at 20 and is 1.5 above that in a
+/// quarter of its samples, else less than 1: counted from the first value, that quarter was never seen.
+/// Counted from a bench's 0.5 none of it was.
 static void test_a_column_that_goes_further_is_told(void)
 {
     static double here[SAMPLES];
     static double there[SAMPLES];
     for (size_t t = 0; t < SAMPLES; t++) {
         here[t] = (double)t / (SAMPLES - 1);
-        there[t] = t < SAMPLES / 4 ? 1.5 : 1;
+        there[t] = t > 0 && t <= SAMPLES / 4 ? 21.5 : 20 + 0.0004 * (double)t;
     }
     column_t columns[2] = {{"load", here}, {"load", there}};
     slow.record.num_auxiliary = fast.record.num_auxiliary = 1;
@@ -107,6 +108,12 @@ static void test_a_column_that_goes_further_is_told(void)
     fast.record.auxiliary = &columns[1];
     const effect_use_t gain = {.effect = &effect_exogenous, .parameter = {0.1}, .column = "load"};
     TEST_ASSERT_EQUAL_DOUBLE(0.25, try_on_fast_work(&gain).extrapolated);
+    const effect_use_t known = {.effect = &effect_exogenous,
+                                .parameter = {0.1},
+                                .column = "load",
+                                .has_reference = true,
+                                .reference = 0.5};
+    TEST_ASSERT_EQUAL_DOUBLE(1, try_on_fast_work(&known).extrapolated);
     const effect_use_t lag = {.effect = &effect_output_lag, .parameter = {0.05}};
     TEST_ASSERT_EQUAL_DOUBLE(0, try_on_fast_work(&lag).extrapolated);
 }

@@ -1,6 +1,7 @@
 #include "diagnose_verdict.h"
 
 #include "effect_catalogue.h"
+#include "random.h"
 #include <math.h>
 #include <stdlib.h>
 #include <unity.h>
@@ -118,13 +119,40 @@ static void test_what_leaves_over_15_percent_is_unknown(void)
 /// most.
 static void test_the_floor_is_lowered_by_what_is_left(void)
 {
-    scale_t lowered = {.noise = 1, .known = 1, .floor = 4, .grain = 1};
+    scale_t lowered = {.noise = 1, .known = 1, .floor = 4, .grain = 1, .floor_grain = 0.1};
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.5, scale_least_floor(&lowered));
     scale_lower(&lowered, 2);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3, lowered.floor);
     TEST_ASSERT_TRUE(lowered.grain < 1);
     scale_lower(&lowered, 0.1);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1, lowered.floor);
+}
+
+/// What errors leave beyond half a step, drawn: a course anywhere between the steps, rounded with an error of
+/// 1 on it. The squares' mean is known to sqrt(4.5 step / DRAWS) of itself where the step is large (three
+/// times that allowed), and is the error's own square where it is small.
+static void test_floor_behind_steps_is_what_errors_leave(void)
+{
+    enum { DRAWS = 400000 };
+    const scale_t output = {.noise = 1, .known = 1, .floor = 1, .floor_grain = 0.14};
+    const double steps[] = {0.01, 2, 10, 60};
+    for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
+        const double step = steps[k];
+        random_t random = random_new(31 + k);
+        double sum = 0;
+        for (size_t i = 0; i < DRAWS; i++) {
+            const double at = random_uniform(&random, 0, step);
+            const double level = step * round((at + random_normal(&random)) / step);
+            const double beyond = fmax(fabs(at - level) - step / 2, 0);
+            sum += beyond * beyond;
+        }
+        const scale_t behind = scale_behind_steps(&output, step, 0, DRAWS);
+        // A normal error's fourth power is known to sqrt(2 / DRAWS) of the square at least.
+        const double bound = 3 * sqrt((4.5 * step + 2) / DRAWS);
+        TEST_ASSERT_DOUBLE_WITHIN(bound * behind.noise, behind.noise, sum / DRAWS);
+        TEST_ASSERT_TRUE(behind.noise < behind.known);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1, scale_behind_steps(&output, 0.01, 0, DRAWS).noise);
 }
 
 int main(void)
@@ -135,5 +163,6 @@ int main(void)
     RUN_TEST(test_what_is_a_quarter_as_likely_cannot_be_told);
     RUN_TEST(test_what_leaves_over_15_percent_is_unknown);
     RUN_TEST(test_the_floor_is_lowered_by_what_is_left);
+    RUN_TEST(test_floor_behind_steps_is_what_errors_leave);
     return UNITY_END();
 }

@@ -488,6 +488,25 @@ static void a_diffusion_s_hold_counts(void)
     hysteresis_free(&one);
 }
 
+/// Each of two coercive fields takes its own share of the nonhysteretic part along, in either order.
+static void coercive_fields_keep_their_shares(void)
+{
+    const effect_use_t one =
+        effect_case_use(&(effect_case_t){"exogenous", "coercive_field", {0.04, 0.0, 0.3}, 1.0});
+    const effect_use_t other =
+        effect_case_use(&(effect_case_t){"exogenous", "coercive_field", {0.02, 0.0, 1.0}, 1.0});
+    const effect_use_t orders[2][2] = {{one, other}, {other, one}};
+    for (size_t k = 0; k < 2; ++k) {
+        hysteresis_t both = effect_hysteresis(&run, orders[k], 2);
+        for (size_t i = 0; i < record.num_samples; ++i) {
+            const double q = both.coercive[i] / (0.04 + 0.02);
+            TEST_ASSERT_DOUBLE_WITHIN(8.0 * DBL_EPSILON * fabs(q), (0.3 * 0.04 + 0.02) * q,
+                                      both.coercive_direct[i]);
+        }
+        hysteresis_free(&both);
+    }
+}
+
 /// A width that is 0 leaves plays that trail where they are, and nothing is read beyond its one sample.
 static void a_past_at_speed_needs_no_column(void)
 {
@@ -624,6 +643,7 @@ int main(void)
     RUN_TEST(a_held_mode_is_as_if_sampled);
     RUN_TEST(a_field_inside_rises_with_the_input);
     RUN_TEST(a_diffusion_s_hold_counts);
+    RUN_TEST(coercive_fields_keep_their_shares);
     RUN_TEST(a_past_at_speed_needs_no_column);
     RUN_TEST(a_past_beyond_the_range_begins_at_the_strips_other_end);
     RUN_TEST(the_reference_shifts_the_column);
