@@ -263,7 +263,7 @@ static outcome_t find_and_report(const options_t* given, const char** paths, con
         outcome = findings_json(&found, &object);
     }
     if (outcome == OUTCOME_OK) {
-        effect_run_t run = effect_run_new(model, record);
+        effect_run_t run = effect_run_new(model, record, true);
         const report_t report = {.model = model,
                                  .model_path = paths[0],
                                  .record_path = paths[1],

@@ -32,7 +32,8 @@ static const char symbols[] = "Symbols: v the input on its way to the plays, y t
                               "input range, s the same with each move counted (how fast it is / "
                               "speed)^speed_power times; c the auxiliary column "
                               "named by\n"
-                              "\"column\", counted from \"reference\" (left out: from the record's first "
+                              "\"column\", without the white noise of its sensor, counted from "
+                              "\"reference\" (left out: from the record's first "
                               "value); LP a lag of first order, LP_k "
                               "six of them evenly\n"
                               "in the logarithm from tau_fast to tau_slow.\n";

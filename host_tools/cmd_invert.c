@@ -19,7 +19,7 @@ static inverted_t invert_all(const model_run_t* run)
     inverted_t result = {.input = xcalloc(num_samples, sizeof(double)),
                          .output = xcalloc(num_samples, sizeof(double)),
                          .clamped = xcalloc(num_samples, sizeof(double))};
-    effect_run_t over = effect_run_new(run->model, run->record);
+    effect_run_t over = effect_run_new(run->model, run->record, run->num_uses > 0);
     effect_invert(&over, run->model, run->start, run->uses, run->num_uses, wanted, result.input,
                   result.clamped);
     over.input = result.input;

@@ -60,7 +60,7 @@ static outcome_t simulate(const model_run_t* run)
 {
     command_warn_outside(run->model, run->record);
     double* output = xcalloc(run->record->num_samples, sizeof(double));
-    effect_run_t over = effect_run_new(run->model, run->record);
+    effect_run_t over = effect_run_new(run->model, run->record, run->num_uses > 0);
     effect_simulate(&over, run->model, run->start, run->uses, run->num_uses, output);
     effect_run_free(&over);
     outcome_t outcome = model_run_check_finite(run, "output", output);

@@ -227,7 +227,7 @@ static void fit_on_whole(const work_t* w, const cause_t* verdict, const hypothes
 {
     const nuisance_t nothing = {0};
     record_t fitted = record_thin(w->record, most_fitted, w->scope.first_judged);
-    effect_run_t run = effect_run_new(w->gap.model, &fitted);
+    effect_run_t run = effect_run_new(w->gap.model, &fitted, true);
     run.fast = w->run.fast;
     run.body = w->run.body;
     run.everett = w->run.everett;
@@ -249,10 +249,10 @@ static void prepare(work_t* w, const model_t* model, const fast_plays_t* fast)
 {
     const diagnose_options_t* options = w->options;
     w->scope = scope_of(model, options->calibration, w->record);
-    w->whole = effect_run_new(model, w->record);
+    w->whole = effect_run_new(model, w->record, true);
     w->whole.fast = fast;
     w->thinned = record_thin(w->record, most_judged, w->scope.first_judged);
-    w->run = effect_run_new(model, &w->thinned);
+    w->run = effect_run_new(model, &w->thinned, true);
     w->run.fast = fast;
     w->run.input_frequency = scope_input_frequency(&w->run);
     w->body = (body_t){.misfit = options->calibration_rmse, .noise = options->calibration_noise};

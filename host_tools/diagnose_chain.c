@@ -138,7 +138,7 @@ outcome_t chain_budget(const chain_t* chain, const record_t* record, const diagn
                                    .verdict = diagnosis->is_unknown ? NULL : diagnosis->cause[0].hypothesis,
                                    .noise = diagnosis->noise,
                                    .misfit = full_misfit(chain, start, options)};
-    effect_run_t run = effect_run_new(&chain->full, record);
+    effect_run_t run = effect_run_new(&chain->full, record, true);
     const outcome_t outcome = budget_find(&stages, &run, record->output, budget);
     effect_run_free(&run);
     return outcome;

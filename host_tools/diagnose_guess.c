@@ -2,6 +2,8 @@
 
 #include "series.h"
 #include "sinusoid.h"
+#include <float.h>
+#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,16 +85,50 @@ static void guess_mode(const gap_t* gap, const double* predicted, effect_use_t* 
     free(ringing);
 }
 
+/// A cause that follows a column c behind the plays, to second order: what is left as a sum of c, c y, c^2
+/// and c^2 y, of which the last two tell the bend that goes best with the first two.
+static void guess_column(const gap_t* gap, const double* predicted, effect_use_t* use)
+{
+    enum { TERMS = 4 };
+    const effect_run_t* run = gap->run;
+    double* column = effect_use_column(run, use);
+    const double size = fmax(series_span(column, run->num_samples), DBL_MIN);
+    double gram[TERMS * TERMS] = {0};
+    double part[TERMS] = {0};
+    for (size_t t = 0; t < run->num_samples; t++) {
+        const double c = gap_is_judged(gap, t) ? column[t] / size : 0;
+        const double y = predicted[t] / run->output_span;
+        const double term[TERMS] = {c * y, c, c * c * y, c * c};
+        for (size_t i = 0; i < TERMS; i++) {
+            part[i] += term[i] * (gap->output[t] - predicted[t]);
+            for (size_t k = 0; k < TERMS; k++) {
+                gram[i * TERMS + k] += term[i] * term[k];
+            }
+        }
+    }
+    free(column);
+    if (LAPACKE_dposv(LAPACK_COL_MAJOR, 'U', TERMS, 1, gram, TERMS, part, TERMS) == 0) {
+        const double first = part[0] * part[0] + part[1] * part[1];
+        const double bend = first > 0 ? (part[0] * part[2] + part[1] * part[3]) / first : 0;
+        const double guess[EFFECT_MAX_PARAMETERS] = {part[0] / size / run->output_span, part[1] / size, 0,
+                                                     fmin(fmax(bend, -0.5), 0.5) / size};
+        memcpy(use->parameter, guess, sizeof guess);
+    }
+}
+
 bool guess_parameters(const gap_t* gap, const double* predicted, effect_use_t* use)
 {
     const bool disturbs = strcmp(use->effect->name, "periodic_disturbance") == 0;
     const bool rings = strcmp(use->effect->name, "resonance") == 0;
+    const bool follows = use->effect->needs_column && use->effect->mechanism == NULL;
     if (disturbs && use->effect->mechanism != NULL) {
         guess_run_up(gap, predicted, use);
     } else if (disturbs) {
         guess_disturbance(gap, predicted, use);
     } else if (rings) {
         guess_mode(gap, predicted, use);
+    } else if (follows) {
+        guess_column(gap, predicted, use);
     }
-    return disturbs || rings;
+    return disturbs || rings || follows;
 }

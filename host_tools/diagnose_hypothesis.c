@@ -406,7 +406,7 @@ void hypothesis_fit_last(hypothesis_t* hypothesis, const gap_t* gap, int max_eva
 /// delays give no gradient where they do not act.
 static hypothesis_t scan(const hypothesis_t* hypothesis, const gap_t* gap, int max_evaluations)
 {
-    enum { POINTS = 24 };
+    enum { POINTS = 48 };
     hypothesis_t trial = *hypothesis;
     hypothesis_t best = *hypothesis;
     search_t s = search_new(&trial, gap, -1);

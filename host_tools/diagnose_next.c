@@ -69,7 +69,7 @@ static bool needs_column(const hypothesis_t* hypothesis)
 static double separation(const gap_t* gap, const hypothesis_t* a, const hypothesis_t* b,
                          const record_t* record)
 {
-    effect_run_t run = effect_run_new(gap->model, record);
+    effect_run_t run = effect_run_new(gap->model, record, true);
     double* first = xmalloc(2 * record->num_samples * sizeof *first);
     double* second = first + record->num_samples;
     effect_simulate(&run, gap->model, gap->start, a->use, a->num_uses, first);

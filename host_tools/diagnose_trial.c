@@ -15,7 +15,7 @@ static squares_t squares_over(const model_t* model, start_t start, const record_
                               const effect_use_t* uses, size_t num_uses)
 {
     const size_t n = record->num_samples;
-    effect_run_t run = effect_run_new(model, record);
+    effect_run_t run = effect_run_new(model, record, true);
     double* plain = xmalloc(n * sizeof *plain);
     double* augmented = xmalloc(n * sizeof *augmented);
     effect_simulate(&run, model, start, NULL, 0, plain);

@@ -22,14 +22,16 @@ typedef enum { EFFECT_DRIVE, EFFECT_HYSTERESIS, EFFECT_BODY, EFFECT_SENSOR } eff
 /// What an effect sees of the record it runs over.
 typedef struct {
     size_t num_samples;
-    const double* time;               ///< [num_samples] seconds; a record without time: one second a sample
-    const double* input;              ///< [num_samples] the command, before any effect
-    const record_t* record;           ///< for auxiliary columns; may be NULL when no effect names one
-    double input_min;                 ///< the model's
-    double input_span;                ///< the model's input_max - input_min
-    double output_span;               ///< the range of the model's own output over this input
-    double sample_time;               ///< median of the time steps [s]
-    double duration;                  ///< [s]
+    const double* time;     ///< [num_samples] seconds; a record without time: one second a sample
+    const double* input;    ///< [num_samples] the command, before any effect
+    const record_t* record; ///< for auxiliary columns; may be NULL when no effect names one
+    double** course;    ///< [record->num_auxiliary][num_samples] owned: theirs (column_course.h); NULL: no
+                        ///< effect follows one
+    double input_min;   ///< the model's
+    double input_span;  ///< the model's input_max - input_min
+    double output_span; ///< the range of the model's own output over this input
+    double sample_time; ///< median of the time steps [s]
+    double duration;    ///< [s]
     double output_min, output_max;    ///< the model's output between its two saturations, whatever the input
     double input_rate;                ///< the largest |d input/dt| between two samples
     double travel;                    ///< the sum of |d input|
@@ -131,8 +133,11 @@ typedef struct {
     bool is_of_one_record; ///< "transferable": false in the model file: fitted to one record's own course
 } effect_use_t;
 
-/// The run's description over a record (time, or 1 s a sample without it).
-effect_run_t effect_run_new(const model_t* model, const record_t* record);
+/// The use's column as its effect takes it, allocated; NULL when it follows none.
+double* effect_use_column(const effect_run_t* run, const effect_use_t* use);
+/// The run's description over a record (time, or 1 s a sample without it). follows_columns: whether effects
+/// may run over it that follow an auxiliary column.
+effect_run_t effect_run_new(const model_t* model, const record_t* record, bool follows_columns);
 void effect_run_free(effect_run_t* run);
 /// The middle of the major loop of what the run's `body` or `everett` makes of the model.
 loop_middle_t* effect_run_find_middle(const effect_run_t* run, const model_t* model, start_t start);

@@ -1,3 +1,4 @@
+#include "column_course.h"
 #include "effect.h"
 #include "output_range.h"
 #include "reference.h"
@@ -22,7 +23,16 @@ static double output_span(const model_t* model, const double* input, size_t num_
     return high > low ? high - low : 0.0;
 }
 
-effect_run_t effect_run_new(const model_t* model, const record_t* record)
+static double** courses_of(const record_t* record, const double* time)
+{
+    double** course = xcalloc(record->num_auxiliary + 1, sizeof *course);
+    for (size_t i = 0; i < record->num_auxiliary; ++i) {
+        course[i] = column_course(time, record->auxiliary[i].value, record->num_samples);
+    }
+    return course;
+}
+
+effect_run_t effect_run_new(const model_t* model, const record_t* record, bool follows_columns)
 {
     const size_t count = record->num_samples;
     effect_run_t run = {.num_samples = count,
@@ -42,6 +52,7 @@ effect_run_t effect_run_new(const model_t* model, const record_t* record)
         }
         run.time = seconds;
     }
+    run.course = follows_columns ? courses_of(record, run.time) : NULL;
     run.sample_time = sample_time_of(run.time, count);
     run.duration = count > 1 ? run.time[count - 1] - run.time[0] : run.sample_time;
     run.output_span = run.output_max - run.output_min;
@@ -62,6 +73,10 @@ void effect_run_free(effect_run_t* run)
     if (run->record != NULL && run->time != run->record->time) {
         free((void*)(uintptr_t)run->time);
     }
+    for (size_t i = 0; run->course != NULL && i < run->record->num_auxiliary; ++i) {
+        free(run->course[i]);
+    }
+    free(run->course);
     loop_middle_free((loop_middle_t*)(uintptr_t)run->middle);
     *run = (effect_run_t){0};
 }
@@ -88,8 +103,7 @@ outcome_t effect_check_columns(const record_t* record, const effect_use_t* uses,
     return OUTCOME_OK;
 }
 
-/// The use's column as its effect takes it, allocated; NULL when it follows none.
-static double* centred_column(const effect_run_t* run, const effect_use_t* use)
+double* effect_use_column(const effect_run_t* run, const effect_use_t* use)
 {
     const column_t* column = use->effect->needs_column && run->record != NULL
                                  ? record_find_auxiliary(run->record, use->column)
@@ -97,24 +111,25 @@ static double* centred_column(const effect_run_t* run, const effect_use_t* use)
     if (column == NULL) {
         return NULL;
     }
-    const double reference = use->has_reference ? use->reference : column->value[0];
+    const double* course = run->course[column - run->record->auxiliary];
+    const double reference = use->has_reference ? use->reference : course[0];
     double* centred = xcalloc(run->num_samples, sizeof(double));
     for (size_t i = 0; i < run->num_samples; ++i) {
-        centred[i] = column->value[i] - reference;
+        centred[i] = course[i] - reference;
     }
     return centred;
 }
 
 void effect_use_apply(const effect_run_t* run, const effect_use_t* use, double* series)
 {
-    double* column = centred_column(run, use);
+    double* column = effect_use_column(run, use);
     use->effect->apply(run, use->parameter, column, series);
     free(column);
 }
 
 void effect_use_invert(const effect_run_t* run, const effect_use_t* use, double* series)
 {
-    double* column = centred_column(run, use);
+    double* column = effect_use_column(run, use);
     use->effect->invert(run, use->parameter, column, series);
     free(column);
 }
@@ -123,7 +138,7 @@ effect_limits_t effect_use_limits(const effect_run_t* run, const effect_use_t* u
 {
     effect_limits_t limits;
     use->effect->limits(run, parameter, &limits);
-    double* column = centred_column(run, use);
+    double* column = effect_use_column(run, use);
     double size = 0.0;
     for (size_t i = 0; column != NULL && i < run->num_samples; ++i) {
         size = fmax(size, fabs(column[i]));
@@ -160,7 +175,7 @@ hysteresis_t effect_hysteresis(const effect_run_t* run, const effect_use_t* uses
     hysteresis.middle = run->body_middle != NULL ? run->body_middle : run->middle;
     for (size_t u = 0; u < num_uses; ++u) {
         if (uses[u].effect->configure != NULL) {
-            double* column = centred_column(run, &uses[u]);
+            double* column = effect_use_column(run, &uses[u]);
             uses[u].effect->configure(run, uses[u].parameter, column, &hysteresis);
             free(column);
         }

@@ -4,13 +4,15 @@
 /// of the output's range beyond its saturations: fading about a point further away is a drift. rate [1 per
 /// span of travel], fitted to a factor of e^2 either way over the record. settling >= 0 [1 per span], fitted
 /// to three lives a record; speed_power [1], fitted from 0 to 1.2, with speed [input/s] the record's own
-/// mean: at the mean it counts as travel does. Those are 0 when left out: damage is the spans. Source of
-/// damage by powers of a stroke: J. Lemaitre, R. Desmorat, Engineering Damage Mechanics (2005), ch. 6.
+/// mean: at the mean it counts as travel does; output_share 0 ... 1 [1] of the strokes counted is the
+/// material's own (in spans of the output), the rest the input's: inside its play a material does not move.
+/// Those are 0 when left out: damage is the input's spans. Source of damage by powers of a stroke: J.
+/// Lemaitre, R. Desmorat, Engineering Damage Mechanics (2005), ch. 6.
 #include "effect_catalogue.h"
 #include "effect_limits.h"
 #include <math.h>
 
-enum { RATE, PIVOT, SETTLING, SPEED_POWER, SPEED };
+enum { RATE, PIVOT, SETTLING, SPEED_POWER, OUTPUT_SHARE, SPEED };
 
 static const effect_parameter_t parameters[] = {{"rate", "1/span", ANY_NUMBER}};
 
@@ -19,6 +21,7 @@ static const effect_parameter_t response_parameters[] = {
     [PIVOT] = {"pivot", "1", ANY_NUMBER, .optional = true},
     [SETTLING] = {"settling", "1/span", AT_LEAST_0, .optional = true},
     [SPEED_POWER] = {"speed_power", "1", .least = 0.0, .most = 4.0, .optional = true},
+    [OUTPUT_SHARE] = {"output_share", "1", .least = 0.0, .most = 1.0, .optional = true},
     [SPEED] = {"speed", "input/s", AT_LEAST_0, .optional = true, .is_unit = true},
 };
 
@@ -48,6 +51,9 @@ static void response_limits(const effect_run_t* run, size_t parameter, effect_li
     case SPEED_POWER:
         *result = limits_linear(0.0, 1.2, 0.0, 0.1, 0.1, 0.8);
         break;
+    case OUTPUT_SHARE:
+        *result = limits_linear(0.0, 1.0, 0.0, 0.9, 0.9, 0.1);
+        break;
     case SPEED:
         *result = limits_linear(0.0, 2.0 * speed, speed, speed, speed, speed);
         break;
@@ -56,14 +62,14 @@ static void response_limits(const effect_run_t* run, size_t parameter, effect_li
     }
 }
 
-/// Spans that a move counts as.
-static double spans_of(const effect_run_t* run, const double* parameter, size_t i)
+/// Spans that the move to a sample counts as, where the output moves by so many of its own.
+static double spans_of(const effect_run_t* run, const double* parameter, size_t i, double output_spans)
 {
-    const double move = fabs(run->input[i] - run->input[i - 1]);
+    const double input_spans = fabs(run->input[i] - run->input[i - 1]) / run->input_span;
+    const double move = input_spans + parameter[OUTPUT_SHARE] * (output_spans - input_spans);
     const bool counts_speed = parameter[SPEED_POWER] > 0.0 && parameter[SPEED] > 0.0 && move > 0.0;
-    const double speed = move / (run->time[i] - run->time[i - 1]);
-    const double weight = counts_speed ? pow(speed / parameter[SPEED], parameter[SPEED_POWER]) : 1.0;
-    return weight * move / run->input_span;
+    const double speed = move * run->input_span / (run->time[i] - run->time[i - 1]);
+    return counts_speed ? pow(speed / parameter[SPEED], parameter[SPEED_POWER]) * move : move;
 }
 
 /// (1 - exp(-settling * spans)) / settling
@@ -79,9 +85,13 @@ static void apply_response(const effect_run_t* run, const double* parameter, con
     (void)column;
     const double middle = 0.5 * (run->output_min + run->output_max);
     const double pivot = middle + parameter[PIVOT] * 0.5 * (run->output_max - run->output_min);
+    const double between_saturations = run->output_max - run->output_min;
+    const double output_span = between_saturations > 0.0 ? between_saturations : 1.0;
     double spans = 0.0;
+    double last = run->num_samples > 0 ? series[0] : 0.0;
     for (size_t i = 0; i < run->num_samples; ++i) {
-        spans += i > 0 ? spans_of(run, parameter, i) : 0.0;
+        spans += i > 0 ? spans_of(run, parameter, i, fabs(series[i] - last) / output_span) : 0.0;
+        last = series[i];
         const double damage = damage_of(parameter[SETTLING], spans);
         series[i] = pivot + exp(-parameter[RATE] * damage) * (series[i] - pivot);
     }
@@ -137,7 +147,8 @@ const effect_t effect_wear_response = {
     .mechanism = "response",
     .what = what,
     .law = "y' = y_p + exp(-rate damage) (y - y_p), y_p = y_m + pivot half_span, "
-           "damage = (1 - exp(-settling s)) / settling",
+           "damage = (1 - exp(-settling s)) / settling\n"
+           "output_share: so much of each stroke in s is the output's own, in widths of its range",
     .stage = EFFECT_BODY,
     .transferable = true,
     .num_parameters = COUNT_OF(response_parameters),

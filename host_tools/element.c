@@ -4,8 +4,13 @@
 #include <math.h>
 #include <stdbool.h>
 
+enum { INTERVALS = ELEMENT_CURVE - 3 };
+
 /// Of the input's range, the largest move that is one step.
 static const double longest_step = 0.01;
+/// Of the input's range, how far beyond it an element goes on: an effect may let it see more than the
+/// command.
+static const double most_beyond = 0.5;
 /// Of the pinning, what the denominator of the wall's slope may not fall below: the walls then jump.
 static const double least_pinning = 0.02;
 
@@ -108,7 +113,8 @@ element_state_t element_saturated(const element_t* element)
 
 double element_part(const element_t* e, double input)
 {
-    return smaller(larger((input - e->input_min) / (e->input_max - e->input_min), 0), 1);
+    const double part = (input - e->input_min) / (e->input_max - e->input_min);
+    return smaller(larger(part, -most_beyond), 1 + most_beyond);
 }
 
 double element_step(element_state_t* s, double input)
@@ -116,11 +122,15 @@ double element_step(element_state_t* s, double input)
     return move_to(s, element_part(s->element, input));
 }
 
-/// The four splines that are not 0 at a part of the range; returns the first one's number.
+static double within_range(double part)
+{
+    return smaller(larger(part, 0), 1);
+}
+
+/// The four splines that are not 0 at a part of the range, within it; returns the first one's number.
 static size_t splines_at(double part, double* value)
 {
-    enum { INTERVALS = ELEMENT_CURVE - 3 };
-    const double place = part * INTERVALS;
+    const double place = within_range(part) * INTERVALS;
     const size_t i = place < INTERVALS - 1 ? (size_t)place : INTERVALS - 1;
     const double b = place - (double)i;
     const double a = 1 - b;
@@ -143,11 +153,23 @@ void element_splines(double part, double* spline)
     }
 }
 
-static double curve_at(const element_t* e, double part)
+static double curve_within(const element_t* e, double part)
 {
     double value[4];
     const double* curve = &e->curve[splines_at(part, value)];
     return value[0] * curve[0] + value[1] * curve[1] + value[2] * curve[2] + value[3] * curve[3];
+}
+
+/// Beyond the range it goes on straight, as steep as over the last two splines there.
+static double curve_at(const element_t* e, double part)
+{
+    const double within = within_range(part);
+    const double value = curve_within(e, within);
+    if (!(part < 0 || part > 1)) {
+        return value;
+    }
+    const double back = within + (part > 1 ? -1 : 1) * 2.0 / INTERVALS;
+    return value + (value - curve_within(e, back)) / (within - back) * (part - within);
 }
 
 double element_nonhysteretic(const element_t* element, double input)

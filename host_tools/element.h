@@ -51,14 +51,14 @@ typedef struct {
 
 /// In negative saturation: at the range's foot after a whole cycle.
 element_state_t element_saturated(const element_t* element);
-/// The input as a part of the range, limited to it.
+/// The input as a part of the range, at most half of it beyond.
 double element_part(const element_t* element, double input);
-/// Moves to `input` [input units], limited to the range; the state there.
+/// Moves to `input` [input units], limited likewise; the state there.
 double element_step(element_state_t* state, double input);
-/// The curve's splines at a part of the range: spline[ELEMENT_CURVE], summing to 1.
+/// The curve's splines at a part of the range, limited to it: spline[ELEMENT_CURVE], summing to 1.
 void element_splines(double part, double* spline);
 
-/// The curve at an input [input units].
+/// The curve at an input [input units], beyond the range going on straight.
 double element_nonhysteretic(const element_t* element, double input);
 /// output[num_samples] for input[num_samples] from negative saturation; the first one raised by `shift`, from
 /// where the rest follows.

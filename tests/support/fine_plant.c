@@ -34,7 +34,7 @@ typedef struct {
     double lag[LAGS];
     double power[POWER_LAGS];
     double place, speed;
-    double before, heat, spans;
+    double before, heat, spans, command_speed, unlimited;
     double spline[MOST_UNKNOWNS];
     bool started;
 } plant_t;
@@ -80,9 +80,11 @@ static double drive(plant_t* plant, double u)
         return plant->drive;
     }
     if (is(plant, "slew_limit")) {
-        const double reach = plant->p[0] * plant->dt;
-        plant->drive += clamp(u - plant->drive, -reach * (1 - plant->p[1]), reach * (1 + plant->p[1]));
-        return plant->drive;
+        const double* p = plant->p;
+        plant->unlimited = plant->started ? plant->unlimited : u;
+        plant->unlimited += plant->dt * (u - plant->unlimited) / p[2];
+        plant->drive += plant->dt * clamp((u - plant->drive) / p[2], -p[0] * (1 - p[1]), p[0] * (1 + p[1]));
+        return u + plant->drive - plant->unlimited;
     }
     return u;
 }
@@ -287,10 +289,7 @@ static double plays(plant_t* plant, double command, double temperature)
         plant->sum += model->weight[j] * plant->w[j];
     }
     plant->travel += fabs(command - plant->command);
-    if (by(plant, "wear", "response")) {
-        const double speed = fabs(command - plant->command) / plant->dt;
-        plant->spans += plant->dt / (2 * half_range) * speed * pow(speed / plant->p[4], plant->p[3]);
-    }
+    plant->command_speed = fabs(command - plant->command) / plant->dt;
     plant->command = command;
     const double level = command / half_range;
     const double faded = exp(-plant->p[0] * plant->travel / (2 * half_range));
@@ -319,12 +318,17 @@ static void output_range(const plant_t* plant, double* middle, double* half)
     *half = (high - low) / 2;
 }
 
-static double worn(const plant_t* plant, double y)
+static double worn(plant_t* plant, double y)
 {
     double middle;
     double half;
     output_range(plant, &middle, &half);
     const double* p = plant->p;
+    const double span = plant->model->input_max - plant->model->input_min;
+    const double own = plant->started ? fabs(y - plant->before) / plant->dt / (2 * half) * span : 0;
+    const double speed = (1 - p[4]) * plant->command_speed + p[4] * own;
+    plant->spans += plant->dt / span * speed * pow(speed / p[5], p[3]);
+    plant->before = y;
     const double pivot = middle + p[1] * half;
     const double settled = (1 - exp(-p[2] * plant->spans)) / p[2];
     return pivot + (y - pivot) / exp(p[0] * settled);

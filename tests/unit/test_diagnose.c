@@ -292,7 +292,7 @@ static void test_fitted_parameters_are_in_their_order(void)
     run_plant(0, 0);
     const record_t record = {
         .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
-    effect_run_t run = effect_run_new(&model, &record);
+    effect_run_t run = effect_run_new(&model, &record, true);
     const nuisance_t nothing = {0};
     gap_t gap = gap_new(&model, &run, START_NEGATIVE_SATURATION, output, NULL, &nothing, 1);
     const effect_use_t swapped = {.effect = &effect_creep_additional, .parameter = {0.1, 2, 0.1}};
@@ -311,7 +311,7 @@ static double fit_asymmetry(void)
     const effect_use_t limited = {.effect = &effect_slew_limit, .parameter = {50, -0.4}};
     const record_t record = {
         .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
-    effect_run_t run = effect_run_new(&model, &record);
+    effect_run_t run = effect_run_new(&model, &record, true);
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &limited, 1, output);
     random_t random = random_new(78);
     for (size_t t = 0; t < SAMPLES; t++) {

@@ -62,7 +62,7 @@ void setUp(void)
     make_input(10);
     record = (record_t){
         .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = measured};
-    run = effect_run_new(&full, &record);
+    run = effect_run_new(&full, &record, true);
 }
 
 void tearDown(void)
@@ -349,7 +349,7 @@ static void test_inputs_beyond_the_range_are_clamped(void)
 {
     effect_run_free(&run);
     make_input(12);
-    run = effect_run_new(&full, &record);
+    run = effect_run_new(&full, &record, true);
     const hypothesis_t lag = a_lag();
     measure(&lag, noise);
     static double beyond[SAMPLES];

@@ -149,7 +149,7 @@ static void test_a_hum_far_above_the_input_is_named(void)
 
 static void test_lines_that_follow_the_input(void)
 {
-    effect_run_t run = effect_run_new(&model, &record);
+    effect_run_t run = effect_run_new(&model, &record, true);
     const double slow[EFFECT_MAX_PARAMETERS] = {frequency / 3, 1e-3, 0, 0, 1e-3, 0.1, 0};
     const double at_input[EFFECT_MAX_PARAMETERS] = {frequency, 0.1, 0.1};
     const double within[EFFECT_MAX_PARAMETERS] = {4 * frequency + 0.4 / 29.99, 0.1};

@@ -53,7 +53,7 @@ static void make_input(size_t shortest)
         time_of[t] = 0.01 * (double)t;
         input[t] = from + (to - from) * (double)(t - begin) / (double)length;
     }
-    run = effect_run_new(&model, &record);
+    run = effect_run_new(&model, &record, true);
 }
 
 static void make_output(const effect_use_t* truth)

@@ -102,7 +102,7 @@ static void test_loops_that_were_never_made_are_counted(void)
 
 static double frequency_found(void)
 {
-    effect_run_t run = effect_run_new(&model, &record);
+    effect_run_t run = effect_run_new(&model, &record, true);
     const double found = scope_input_frequency(&run);
     effect_run_free(&run);
     return found;

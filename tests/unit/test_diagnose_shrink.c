@@ -33,7 +33,7 @@ void setUp(void)
     }
     record = (record_t){
         .path = "made.csv", .num_samples = SAMPLES, .time = time_of, .input = input, .output = output};
-    run = effect_run_new(&model, &record);
+    run = effect_run_new(&model, &record, true);
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, NULL, 0, output);
 }
 

@@ -31,7 +31,7 @@ static void make_work(work_t* work, double speed, uint64_t seed)
                               .input = work->input,
                               .output = work->output};
     const effect_use_t lag = {.effect = &effect_output_lag, .parameter = {0.05}};
-    effect_run_t run = effect_run_new(&model, &work->record);
+    effect_run_t run = effect_run_new(&model, &work->record, true);
     effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &lag, 1, work->output);
     effect_run_free(&run);
     for (size_t t = 0; t < SAMPLES; t++) {

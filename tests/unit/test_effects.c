@@ -2,8 +2,10 @@
 #include "effect_cases.h"
 #include "effect_invert.h"
 #include "hysteresis.h"
+#include "random.h"
 #include "random_model.h"
 #include "reference.h"
+#include "series.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +23,7 @@ void setUp(void)
 {
     model = effect_case_model();
     record = effect_case_record(NULL, 0);
-    run = effect_run_new(&model, &record);
+    run = effect_run_new(&model, &record, true);
     plain = xcalloc(record.num_samples, sizeof(double));
     output = xcalloc(record.num_samples, sizeof(double));
     reference_run(&model, START_NEGATIVE_SATURATION, record.input, record.num_samples, plain);
@@ -112,7 +114,7 @@ static void stepping_plays_is_the_reference(void)
 static void same_at_any_sample_rate(const double* sub, size_t num_sub)
 {
     record_t fine = effect_case_record(sub, num_sub);
-    effect_run_t fine_run = effect_run_new(&model, &fine);
+    effect_run_t fine_run = effect_run_new(&model, &fine, true);
     double* fine_output = xcalloc(fine.num_samples, sizeof(double));
     for (size_t c = 0; c < effect_case_count(); ++c) {
         const effect_use_t use = effect_case_use(effect_case_at(c));
@@ -408,7 +410,7 @@ static void a_held_field_is_as_if_sampled(void)
         effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
         bend_course(straight, *hold, 0.0, fine.input);
         *hold = 0.0;
-        effect_run_t fine_run = effect_run_new(&model, &fine);
+        effect_run_t fine_run = effect_run_new(&model, &fine, true);
         effect_simulate(&fine_run, &model, START_NEGATIVE_SATURATION, &use, 1, bent_output);
         check_course(&held_cases[c], bent_output);
         effect_run_free(&fine_run);
@@ -422,7 +424,7 @@ static void a_held_field_is_as_if_sampled(void)
 static void a_held_mode_is_as_if_sampled(void)
 {
     record_t fine = effect_case_record((const double[]){sudden, 1.0 - sudden}, 2);
-    effect_run_t fine_run = effect_run_new(&model, &fine);
+    effect_run_t fine_run = effect_run_new(&model, &fine, true);
     double* course = xcalloc(fine.num_samples, sizeof(double));
     effect_use_t use = effect_case_use(&held_cases[HELD_MODE]);
     double* between = &use.parameter[use.effect->num_parameters - 2];
@@ -438,6 +440,32 @@ static void a_held_mode_is_as_if_sampled(void)
     free(course);
     effect_run_free(&fine_run);
     record_free(&fine);
+}
+
+/// An offset of 1 a degree shows what of a thermometer's noise a plant is taken to feel. A parabola over 41
+/// samples leaves 9 / (4 * 41) of the noise's mean square inside; the ends, a hundredth of the record, up to
+/// 9 / 20.
+static void a_sensors_noise_is_not_felt(void)
+{
+    static const double noise = 0.05;
+    random_t random = random_new(12);
+    effect_use_t use = {.column = "temperature", .has_reference = true, .reference = 20.0};
+    for (size_t e = 0; e < effect_count(); ++e) {
+        use.effect =
+            effect_at(e)->needs_column && effect_at(e)->mechanism == NULL ? effect_at(e) : use.effect;
+    }
+    use.parameter[1] = 1.0;
+    effect_simulate(&run, &model, START_NEGATIVE_SATURATION, &use, 1, output);
+    for (size_t i = 0; i < CASE_SAMPLES; ++i) {
+        record.auxiliary[0].value[i] += noise * random_normal(&random);
+    }
+    effect_run_t noisy_run = effect_run_new(&model, &record, true);
+    double* felt = xcalloc(CASE_SAMPLES, sizeof(double));
+    effect_simulate(&noisy_run, &model, START_NEGATIVE_SATURATION, &use, 1, felt);
+    const double part = 9.0 / (4.0 * 41.0) + 0.01 * 9.0 / 20.0;
+    TEST_ASSERT_TRUE(series_mean_square(felt, output, CASE_SAMPLES) < part * noise * noise);
+    free(felt);
+    effect_run_free(&noisy_run);
 }
 
 static double seen_after(const field_t* field, field_state_t state, double input)
@@ -641,6 +669,7 @@ int main(void)
     RUN_TEST(held_viscous_plays_are_sampled_filters);
     RUN_TEST(a_held_field_is_as_if_sampled);
     RUN_TEST(a_held_mode_is_as_if_sampled);
+    RUN_TEST(a_sensors_noise_is_not_felt);
     RUN_TEST(a_field_inside_rises_with_the_input);
     RUN_TEST(a_diffusion_s_hold_counts);
     RUN_TEST(coercive_fields_keep_their_shares);

@@ -19,7 +19,7 @@ void setUp(void)
 {
     model = effect_case_model();
     record = effect_case_record(NULL, 0);
-    run = effect_run_new(&model, &record);
+    run = effect_run_new(&model, &record, true);
     measured = xcalloc(record.num_samples, sizeof(double));
     trial = xcalloc(record.num_samples, sizeof(double));
 }

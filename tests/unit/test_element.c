@@ -159,16 +159,16 @@ static void test_a_bouc_wen_step_has_one_moment(void)
     free(derivatives);
 }
 
-/// Out of range it stays at the ends; a shift of the start moves the first output by as much and fades on the
-/// way to the top: with slope steepness or more up to z = 0, and from there 1 - z falling at least as
-/// exp(-steepness x), two courses of the same equation differ at the end by order * exp(1 - steepness) of
-/// what they did at the start.
+/// Half the range beyond it stays where it is; a shift of the start moves the first output by as much and
+/// fades on the way to the top: with slope steepness or more up to z = 0, and from there 1 - z falling at
+/// least as exp(-steepness x), two courses of the same equation differ at the end by order * exp(1 -
+/// steepness) of what they did at the start.
 static void test_ends_and_start(void)
 {
     const element_record_t record = calibrate(element_plant_bouc_wen);
     double rmse;
     const element_t element = element_fit(ELEMENT_BOUC_WEN, &record, &rmse);
-    const double beyond[] = {30, 90, 60, 60};
+    const double beyond[] = {30, 70, 90, 60};
     double from_ends[4];
     double shifted[4];
     element_run(&element, 0, beyond, 4, from_ends);
@@ -182,6 +182,34 @@ static void test_ends_and_start(void)
     element_run(&element, 100 * element.gain, beyond, 4, shifted);
     TEST_ASSERT_TRUE(isfinite(shifted[3]));
     TEST_ASSERT_DOUBLE_WITHIN(3 * fabs(element.gain), from_ends[3], shifted[3]);
+}
+
+/// Beyond the range an element is the same equation: one whose range is twice as wide, its numbers in that
+/// range's parts, moves alike (steps below a hundredth of either range are one step in both); and the curve
+/// goes on straight, as steep as its last two splines on the whole.
+static void test_it_goes_on_beyond_its_range(void)
+{
+    const element_record_t record = calibrate(element_plant_bouc_wen);
+    double rmse;
+    const element_t element = element_fit(ELEMENT_BOUC_WEN, &record, &rmse);
+    element_t wide = element;
+    wide.input_min = 30;
+    wide.input_max = 70;
+    wide.shape[BOUC_WEN_STEEPNESS] *= 2;
+    element_state_t narrow_state = element_saturated(&element);
+    element_state_t wide_state = element_saturated(&wide);
+    for (double x = 40; x >= 30; x -= 0.1) {
+        (void)element_step(&narrow_state, x);
+    }
+    for (double x = 30; x <= 70; x += 0.1) {
+        const double z = element_step(&narrow_state, x);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, x > 50 ? element_step(&wide_state, x) : z, z);
+        wide_state.inner = z;
+        wide_state.part = element_part(&wide, x);
+    }
+    const double end = element_nonhysteretic(&element, 60);
+    const double slope = (end - element_nonhysteretic(&element, 60 - 20 * 2.0 / 12)) / (20 * 2.0 / 12);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, end + 7 * slope, element_nonhysteretic(&element, 67));
 }
 
 static void test_bounded_numbers_come_back(void)
@@ -203,6 +231,7 @@ int main(void)
     RUN_TEST(test_moments_of_a_step_are_found);
     RUN_TEST(test_a_bouc_wen_step_has_one_moment);
     RUN_TEST(test_ends_and_start);
+    RUN_TEST(test_it_goes_on_beyond_its_range);
     RUN_TEST(test_bounded_numbers_come_back);
     return UNITY_END();
 }
