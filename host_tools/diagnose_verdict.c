@@ -137,6 +137,18 @@ static bool names_nothing(const cause_t* cause)
     return nothing;
 }
 
+/// Of the gap's mean square what a converter's steps alone explain: hypotheses are weighed on what is left
+/// beyond half a step, where that is gone already.
+static double mean_square_of_steps(const cause_t* cause)
+{
+    double sum = 0;
+    for (size_t i = 0; names_nothing(cause) && i < cause->hypothesis->num_uses; i++) {
+        const double step = cause->hypothesis->use[i].parameter[0];
+        sum += step * step / 12;
+    }
+    return sum;
+}
+
 /// Keeps the likeliest, and the one that names nothing.
 static void keep_most(diagnosis_t* d)
 {
@@ -188,7 +200,7 @@ void verdict_find(const scale_t* scale, const candidates_t* c, diagnosis_t* d)
     weigh(scale, c, d);
     const double likeliest = d->cause[0].probability;
     const hypothesis_t* leader = d->cause[0].hypothesis;
-    const double above = above_floor(scale, &c->hypothesis[0]);
+    const double above = above_floor(scale, &c->hypothesis[0]) + mean_square_of_steps(&d->cause[0]);
     const double left = above > 0 ? above_floor(scale, leader) / above : 0;
     const bool is_outside = hypothesis_outside(leader) != NULL;
     d->is_unknown =

@@ -115,6 +115,20 @@ static void test_what_leaves_over_15_percent_is_unknown(void)
     }
 }
 
+/// Steps of s explain s^2 / 12 of the gap by themselves: of that and the 2 above the floor, 2 are 15 % where
+/// s is sqrt(12 * 2 * 0.85 / 0.15) = 11.7.
+static void test_what_steps_explain_is_no_unknown(void)
+{
+    for (int more = 0; more < 2; more++) {
+        const effect_use_t coarse = {.effect = &effect_quantization, .parameter = {more ? 11.8 : 11.5, 0}};
+        put(0, &coarse, 1, 3);
+        diagnosis_t d = judge(&scale, 1);
+        TEST_ASSERT_EQUAL(more == 0, d.is_unknown);
+        free(d.cause);
+        hypothesis_free(&hypotheses[0]);
+    }
+}
+
 /// The body leaves 1 on its bench and is expected to leave 4 here; what leaves 2 shows that it leaves 3 at
 /// most.
 static void test_the_floor_is_lowered_by_what_is_left(void)
@@ -162,6 +176,7 @@ int main(void)
     RUN_TEST(test_nor_beside_a_known_converter);
     RUN_TEST(test_what_is_a_quarter_as_likely_cannot_be_told);
     RUN_TEST(test_what_leaves_over_15_percent_is_unknown);
+    RUN_TEST(test_what_steps_explain_is_no_unknown);
     RUN_TEST(test_the_floor_is_lowered_by_what_is_left);
     RUN_TEST(test_floor_behind_steps_is_what_errors_leave);
     return UNITY_END();
