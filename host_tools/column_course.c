@@ -75,7 +75,7 @@ static void fill_band(spline_t* s, double smoothing)
     }
 }
 
-/// Solves for the second derivatives; returns log det A, NaN where A is singular to working precision.
+/// Solves for the second derivatives; returns log det A, infinite where A is singular to working precision.
 static double spline_solve(spline_t* s, double smoothing)
 {
     const lapack_int m = (lapack_int)unknowns(s);
@@ -83,7 +83,7 @@ static double spline_solve(spline_t* s, double smoothing)
     memcpy(s->solved, s->bend, unknowns(s) * sizeof *s->solved);
     if (LAPACKE_dpbtrf(LAPACK_COL_MAJOR, 'U', m, BANDS, s->band, ROWS) != 0 ||
         LAPACKE_dpbtrs(LAPACK_COL_MAJOR, 'U', m, BANDS, 1, s->band, ROWS, s->solved, m) != 0) {
-        return NAN;
+        return HUGE_VAL;
     }
     double log_det = 0;
     for (size_t j = 0; j < unknowns(s); j++) {
