@@ -5,7 +5,8 @@
 #include "diagnose_hypothesis.h"
 
 /// Into the use's parameters: the frequency of a disturbance, from the spectrum of what `predicted` leaves of
-/// the gap's output, or of a mode. Returns whether it is such an effect.
+/// the gap's output, or of a mode; or how what is left follows a column. Returns whether it is such an
+/// effect.
 bool guess_parameters(const gap_t* gap, const double* predicted, effect_use_t* use);
 
 #endif

@@ -142,7 +142,10 @@ static bool names_nothing(const cause_t* cause)
 static double mean_square_of_steps(const cause_t* cause)
 {
     double sum = 0;
-    for (size_t i = 0; names_nothing(cause) && i < cause->hypothesis->num_uses; i++) {
+    if (!names_nothing(cause)) {
+        return sum;
+    }
+    for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
         const double step = cause->hypothesis->use[i].parameter[0];
         sum += step * step / 12;
     }

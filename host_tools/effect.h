@@ -98,8 +98,8 @@ struct effect {
     /// Whether with these parameters it cannot be told from an answer to the run's own input, though it is
     /// meant to be unrelated to it: such a fit says nothing for it either. May be NULL.
     bool (*follows_input)(const effect_run_t* run, const double* parameter);
-    /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column, centred on its first
-    /// value [num_samples], or NULL.
+    /// drive, body, sensor: series[num_samples] in place. column: the auxiliary column's course, centred on
+    /// its first value [num_samples], or NULL.
     void (*apply)(const effect_run_t* run, const double* parameter, const double* column, double* series);
     /// hysteresis: sets its part of how the plays run (hysteresis.h); several compose. exogenous has both.
     void (*configure)(const effect_run_t* run, const double* parameter, const double* column,

@@ -84,9 +84,9 @@ static void apply_response(const effect_run_t* run, const double* parameter, con
 {
     (void)column;
     const double middle = 0.5 * (run->output_min + run->output_max);
-    const double pivot = middle + parameter[PIVOT] * 0.5 * (run->output_max - run->output_min);
-    const double between_saturations = run->output_max - run->output_min;
-    const double output_span = between_saturations > 0.0 ? between_saturations : 1.0;
+    const double range = run->output_max - run->output_min;
+    const double pivot = middle + parameter[PIVOT] * 0.5 * range;
+    const double output_span = range > 0.0 ? range : 1.0;
     double spans = 0.0;
     double last = run->num_samples > 0 ? series[0] : 0.0;
     for (size_t i = 0; i < run->num_samples; ++i) {

@@ -43,7 +43,7 @@ typedef struct {
 /// Sample by sample.
 typedef struct {
     const element_t* element;
-    double part;  ///< the input as a part of the range, within it
+    double part;  ///< the input as a part of the range, at most half of it beyond
     double inner; ///< z, or W
     double state; ///< z, or M
     double ideal; ///< A there; Bouc-Wen has none
