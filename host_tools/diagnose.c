@@ -89,7 +89,7 @@ static void judge_causes(const work_t* w, const diagnosis_t* d)
 }
 
 /// How far each cause shrinks the gap; a verdict that is not sure hands out nothing where the gap is no more
-/// than the model is known to leave, and no course of this record.
+/// than the model is known to leave, nothing that hardly helps, and no course of this record.
 static void forecast_causes(const work_t* w, diagnosis_t* d)
 {
     const bool held_out = !has_another_body(w) && !(w->grid.step > 0);
@@ -103,6 +103,9 @@ static void forecast_causes(const work_t* w, diagnosis_t* d)
     }
     for (size_t k = 0; k < d->num_causes; k++) {
         shrink_find(&w->gap, w->plain_error, held_out, k == 0 ? average : NULL, &d->cause[k]);
+    }
+    if (!d->confident) {
+        shrink_mind_doubt(&w->gap, w->plain_error, &d->cause[0]);
     }
     free(average);
 }

@@ -381,23 +381,28 @@ static bool has_mechanism(const hypothesis_t* hypothesis, const effect_use_t* us
     return found;
 }
 
-/// The one of the same mechanisms, or NULL.
+/// The one of the same mechanisms; else one of the same names, or NULL.
 static hypothesis_t* same_as(candidates_t* c, const hypothesis_t* wanted)
 {
+    hypothesis_t* named = NULL;
     for (size_t i = 0; i < c->count; i++) {
-        bool same = hypothesis_same_names(&c->hypothesis[i], wanted);
+        if (!hypothesis_same_names(&c->hypothesis[i], wanted)) {
+            continue;
+        }
+        bool same = true;
         for (size_t k = 0; same && k < wanted->num_uses; k++) {
             same = has_mechanism(&c->hypothesis[i], &wanted->use[k]);
         }
         if (same) {
             return &c->hypothesis[i];
         }
+        named = &c->hypothesis[i];
     }
-    return NULL;
+    return named;
 }
 
-/// Beside another effect a search may find what it did not find alone: each of the combinations from `first`
-/// on without one of its effects, from there.
+/// Beside another effect a search may find what it did not find alone, or by another mechanism: each of the
+/// combinations from `first` on without one of its effects, from there.
 static void refit_parts(candidates_t* c, size_t first)
 {
     for (size_t i = first; i < c->count; i++) {
@@ -408,7 +413,7 @@ static void refit_parts(candidates_t* c, size_t first)
             hypothesis_t* own = same_as(c, &part);
             if (own != NULL && own->num_uses > 0) {
                 hypothesis_fit(&part, c->gap, -1, brief_evaluations(&part));
-                if (hypothesis_mean_square(&part) < hypothesis_mean_square(own)) {
+                if (is_better_mechanism(&part, own)) {
                     adopt(own, &part, c->gap);
                 }
             }

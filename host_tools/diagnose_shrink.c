@@ -56,15 +56,21 @@ void shrink_average(const gap_t* gap, const cause_t* cause, size_t num_causes, d
     free(predicted);
 }
 
+static effect_use_t for_another_record(const effect_use_t* fitted)
+{
+    effect_use_t use = *fitted;
+    if (use.effect->for_another_record != NULL) {
+        use.effect->for_another_record(use.parameter);
+    }
+    return use;
+}
+
 size_t cause_handed_out(const cause_t* cause, effect_use_t* uses)
 {
     size_t count = 0;
     for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
         if (!cause->is_kept_back[i]) {
-            uses[count] = cause->hypothesis->use[i];
-            if (uses[count].effect->for_another_record != NULL) {
-                uses[count].effect->for_another_record(uses[count].parameter);
-            }
+            uses[count] = for_another_record(&cause->hypothesis->use[i]);
             uses[count].is_of_one_record = cause->is_of_one_record[i] || !uses[count].effect->transferable;
             count++;
         }
@@ -144,7 +150,7 @@ static void predict_without(const gap_t* gap, const hypothesis_t* h, const bool*
     size_t count = 0;
     for (size_t i = 0; i < h->num_uses; i++) {
         if (!is_out[i]) {
-            uses[count++] = h->use[i];
+            uses[count++] = for_another_record(&h->use[i]);
         }
     }
     shrink_simulate(gap, gap->run, uses, count, predicted);
@@ -229,4 +235,17 @@ void shrink_find(const gap_t* gap, const double* plain, bool held_out, const dou
     cause->shrink = forecast.shrink;
     cause->shrink_low = forecast.low;
     cause->shrink_high = forecast.high;
+}
+
+/// What is forecast for another record's own input is off by this in the median.
+static const double forecasts_are_off = 0.02;
+
+void shrink_mind_doubt(const gap_t* gap, const double* plain, cause_t* cause)
+{
+    if (cause->shrink < forecasts_are_off) {
+        for (size_t i = 0; i < cause->hypothesis->num_uses; i++) {
+            cause->is_kept_back[i] = true;
+        }
+        shrink_find(gap, plain, false, NULL, cause);
+    }
 }

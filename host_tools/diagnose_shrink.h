@@ -30,5 +30,8 @@ void shrink_average(const gap_t* gap, const cause_t* causes, size_t num_causes, 
 /// asked). plain: block errors without effects. held_out: the hypothesis's block_error is there, and is taken
 /// where every effect is handed out.
 void shrink_find(const gap_t* gap, const double* plain, bool held_out, const double* average, cause_t* cause);
+/// Of a verdict that is not confident, after shrink_find: keeps back all of it where it takes away no more
+/// than forecasts are off by.
+void shrink_mind_doubt(const gap_t* gap, const double* plain, cause_t* cause);
 
 #endif

@@ -3,6 +3,7 @@
 #include "model.h"
 #include "sample_steps.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 static size_t count_filled(const unsigned char* steps, size_t num_samples)
@@ -46,39 +47,61 @@ static void fill_carried(bool** carried, const unsigned char* steps, size_t num_
     *carried = filled;
 }
 
-static double parabola(double near, double middle, double far)
+/// A course up to a gap, from its last sample on: what it goes on by in a step, and by how much less or more
+/// in each further one.
+typedef struct {
+    double last, step, bend;
+} course_t;
+
+/// away: 1 or -1, where the course's earlier samples are.
+static course_t course_to(const double* x, ptrdiff_t away)
 {
-    return 3 * (near - middle) + far;
+    return (course_t){x[0], x[0] - x[away], x[0] - 2 * x[away] + x[2 * away]};
 }
 
-/// The lost sample between x[-1] and x[1], three known ones on either side of it. It lies on the course
-/// before the turn or on the one behind it, so on neither's far side, and no further beyond its neighbours
-/// than a step, however noisy they are.
-static double turning_point(const double* x)
+/// As a parabola.
+static double continued(const course_t* course, unsigned steps)
 {
-    const double before = x[-1] - x[-2];
-    const double behind = x[2] - x[1];
-    const double way = copysign(1, before);
-    const double there = way * fmin(way * parabola(x[-1], x[-2], x[-3]), way * parabola(x[1], x[2], x[3]));
-    const double furthest = way * fmax(way * x[-1], way * x[1]) + way * fmax(fabs(before), fabs(behind));
-    const double nearest = way * fmin(way * x[-1], way * x[1]);
-    return way * fmin(fmax(way * there, way * nearest), way * furthest);
+    return course->last + steps * course->step + 0.5 * steps * (steps + 1) * course->bend;
 }
 
-static bool is_turn(const double* x)
+/// Ahead of a turn a course may slow down, and by no more than makes one parabola of both, however noisy its
+/// samples are.
+static void slow_down(course_t* course, double way, double most)
 {
-    return (x[-1] - x[-2]) * (x[2] - x[1]) < 0;
+    course->bend = -way * fmin(fmax(-way * course->bend, 0), most);
 }
 
-/// steps: of the record before it was filled, where `input` has its lost samples already.
-static void fill_turns(double* input, const unsigned char* steps, size_t num_samples)
+/// The lost samples between x[0] and x[gap], three known ones on either side of them. Each lies on the course
+/// before the turn or on the one behind it, so on neither's far side, and on no nearer one than the line.
+static void fill_turn(double* x, unsigned gap)
 {
-    for (size_t t = 1, k = 1; t < num_samples; k += steps[t], t++) {
-        // k: where the samples after t - 1 begin.
-        const bool is_alone = steps[t] == 2 && t >= 3 && t + 2 < num_samples && steps[t - 1] == 1 &&
-                              steps[t - 2] == 1 && steps[t + 1] == 1 && steps[t + 2] == 1;
-        if (is_alone && is_turn(&input[k])) {
-            input[k] = turning_point(&input[k]);
+    course_t before = course_to(x, -1);
+    course_t behind = course_to(&x[gap], 1);
+    const double way = copysign(1, before.step);
+    const double most = (fabs(before.step) + fabs(behind.step)) / gap;
+    slow_down(&before, way, most);
+    slow_down(&behind, way, most);
+    for (unsigned step = 1; step < gap; step++) {
+        const double there = way * fmin(way * continued(&before, step), way * continued(&behind, gap - step));
+        x[step] = way * fmax(way * there, way * x[step]);
+    }
+}
+
+/// Whether it comes back behind the gap.
+static bool is_turn(const double* x, unsigned gap)
+{
+    return (x[0] - x[-1]) * (x[gap + 1] - x[gap]) < 0;
+}
+
+/// steps: of the record before it was filled, where `input` has its lost samples already, on lines.
+static void fill_turns(double* input, const unsigned char* steps, size_t num_samples, size_t num_filled)
+{
+    for (size_t t = 1, k = 0; t < num_samples; k += steps[t], t++) {
+        // k: where the sample t - 1 is.
+        const bool has_courses = k >= 2 && k + steps[t] + 2 < num_filled;
+        if (steps[t] > 1 && has_courses && is_turn(&input[k], steps[t])) {
+            fill_turn(&input[k], steps[t]);
         }
     }
 }
@@ -99,7 +122,7 @@ void record_fill(record_t* record)
         fill_series(&record->auxiliary[c].value, steps, n, num_filled);
     }
     if (record->input != NULL) {
-        fill_turns(record->input, steps, n);
+        fill_turns(record->input, steps, n, num_filled);
     }
     record->num_samples = num_filled;
     free(steps);

@@ -52,6 +52,18 @@ static bool turns(size_t t)
     return t % RAMP == 0 && t > 0;
 }
 
+/// One to six samples, the turning point among them.
+static bool runs_at_turns(size_t t)
+{
+    const size_t before = t / RAMP % 3;
+    return (t % RAMP <= t / RAMP % 4 && t >= RAMP) || (t % RAMP >= RAMP - before && t >= RAMP);
+}
+
+static bool runs_at_smooth_turns(size_t t)
+{
+    return (t + 2) % (2 * RAMP) >= RAMP && (t + 2) % (2 * RAMP) < RAMP + 5;
+}
+
 static bool runs_on_the_way(size_t t)
 {
     return t % RAMP >= 8 && t % RAMP < 8 + t / RAMP % 7;
@@ -111,6 +123,13 @@ static void test_a_turn_between_the_samples_is_on_one_of_the_courses(void)
 static void test_smooth_turns_come_back(void)
 {
     check_whole(parabolas, turns);
+}
+
+static void test_turns_in_runs_of_lost_samples_come_back(void)
+{
+    check_whole(triangle, runs_at_turns);
+    record_free(&record);
+    check_whole(parabolas, runs_at_smooth_turns);
 }
 
 static void test_runs_of_lost_samples_are_on_a_line(void)
@@ -238,6 +257,7 @@ int main(void)
     RUN_TEST(test_lost_turns_come_back);
     RUN_TEST(test_a_turn_between_the_samples_is_on_one_of_the_courses);
     RUN_TEST(test_smooth_turns_come_back);
+    RUN_TEST(test_turns_in_runs_of_lost_samples_come_back);
     RUN_TEST(test_runs_of_lost_samples_are_on_a_line);
     RUN_TEST(test_what_was_carried_stays_so);
     RUN_TEST(test_nothing_lost_nothing_added);
