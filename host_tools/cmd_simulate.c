@@ -1,3 +1,4 @@
+#include "effect_record.h"
 #include "model_run.h"
 #include <math.h>
 #include <stdio.h>
@@ -59,10 +60,7 @@ static void report(const model_run_t* run, const double* output)
 static outcome_t simulate(const model_run_t* run)
 {
     command_warn_outside(run->model, run->record);
-    double* output = xcalloc(run->record->num_samples, sizeof(double));
-    effect_run_t over = effect_run_new(run->model, run->record, run->num_uses > 0);
-    effect_simulate(&over, run->model, run->start, run->uses, run->num_uses, output);
-    effect_run_free(&over);
+    double* output = effect_simulate_record(run->model, run->start, run->record, run->uses, run->num_uses);
     outcome_t outcome = model_run_check_finite(run, "output", output);
     if (outcome == OUTCOME_OK) {
         outcome = write_simulated(run->output, run->record, output);
@@ -76,12 +74,14 @@ static outcome_t simulate(const model_run_t* run)
 
 outcome_t cmd_simulate(int argc, const char** argv)
 {
-    const command_t command = {"simulate", "MODEL RECORD", 2,
-                               "Writes time, input, the model's output for that input, and the record's "
-                               "auxiliary columns. The model's\n"
-                               "effects are run with it (without time, a second a sample). Where the\n"
-                               "record has an output column, says how far the model's is from it. Beyond the "
-                               "model's input range its\n"
-                               "curves are continued, with a warning."};
+    const command_t command = {
+        "simulate", "MODEL RECORD", 2,
+        "Writes time, input, the model's output for that input, and the record's "
+        "auxiliary columns. The model's\n"
+        "effects are run with it (without time, a second a sample). Where the\n"
+        "record has an output column, says how far the model's is from it; inputs that "
+        "its logger lost are then\n"
+        "put back. Beyond the model's input range its curves are continued, with a "
+        "warning."};
     return model_run(&command, (record_options_t){.needs_input = true}, simulate, argc, argv);
 }

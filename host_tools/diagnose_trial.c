@@ -1,6 +1,7 @@
 #include "diagnose_trial.h"
 
 #include "diagnose_shrink.h"
+#include "effect_record.h"
 #include "series.h"
 #include <math.h>
 #include <stdlib.h>
@@ -15,11 +16,8 @@ static squares_t squares_over(const model_t* model, start_t start, const record_
                               const effect_use_t* uses, size_t num_uses)
 {
     const size_t n = record->num_samples;
-    effect_run_t run = effect_run_new(model, record, true);
-    double* plain = xmalloc(n * sizeof *plain);
-    double* augmented = xmalloc(n * sizeof *augmented);
-    effect_simulate(&run, model, start, NULL, 0, plain);
-    effect_simulate(&run, model, start, uses, num_uses, augmented);
+    double* plain = effect_simulate_record(model, start, record, NULL, 0);
+    double* augmented = effect_simulate_record(model, start, record, uses, num_uses);
     squares_t squares = {.added = series_mean_square(augmented + first, plain + first, n - first)};
     if (record->output != NULL) {
         squares.before = series_mean_square(plain + first, record->output + first, n - first);
@@ -27,7 +25,6 @@ static squares_t squares_over(const model_t* model, start_t start, const record_
     }
     free(plain);
     free(augmented);
-    effect_run_free(&run);
     return squares;
 }
 

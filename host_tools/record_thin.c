@@ -134,7 +134,7 @@ static bool* kept_carried(const choice_t* choice, const record_t* record, size_t
     return carried;
 }
 
-record_t record_thin(const record_t* record, size_t most, size_t first_judged)
+static record_t kept_samples(const record_t* record, size_t most, size_t first_judged)
 {
     const size_t n = record->num_samples;
     choice_t choice = {record->input, xcalloc(n, 1)};
@@ -144,16 +144,25 @@ record_t record_thin(const record_t* record, size_t most, size_t first_judged)
         choose(&choice, n, most);
     }
     const size_t num_kept = count_kept(&choice, n);
-    record_t thinned = kept_record(&choice, record, num_kept);
-    if (thinned.time == NULL && num_kept < n) {
-        thinned.time = kept_numbers(&choice, n, num_kept);
+    record_t kept = kept_record(&choice, record, num_kept);
+    if (kept.time == NULL && num_kept < n) {
+        kept.time = kept_numbers(&choice, n, num_kept);
     }
     if (num_kept < n || first_judged > 0 || record->carried != NULL) {
-        thinned.carried = kept_carried(&choice, record, num_kept, first_judged);
+        kept.carried = kept_carried(&choice, record, num_kept, first_judged);
     }
     free(choice.fate);
-    if (num_kept == n) {
-        record_fill(&thinned);
+    return kept;
+}
+
+record_t record_thin(const record_t* record, size_t most, size_t first_judged)
+{
+    record_t whole = kept_samples(record, record->num_samples, first_judged);
+    record_fill(&whole);
+    if (record->num_samples <= most) {
+        return whole;
     }
+    record_t thinned = kept_samples(&whole, most, 0);
+    record_free(&whole);
     return thinned;
 }

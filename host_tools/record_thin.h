@@ -5,9 +5,9 @@
 
 #include "record.h"
 
-/// record: with input and output. One of at most `most` samples (at least 1000) is copied as it is, and what
-/// a logger lost of it put back (record_fill.h). Of a longer one at most so many are kept, with times of 1 s
-/// a sample where it has none:
+/// record: with input and output. What a logger lost of it is put back (record_fill.h). One of at most `most`
+/// samples (at least 1000) is else copied as it is. Of a longer one at most so many are kept, with times of
+/// 1 s a sample where it has none:
 /// - 12 stretches as they are, evenly spread, the first and the last sample among them. The first quarter of
 ///   each but the first is carried, so that what is fast has settled where the judging begins;
 /// - before each of them cells, short ones next to it and longer ones further back, and of each cell the

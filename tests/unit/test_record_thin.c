@@ -50,7 +50,7 @@ void tearDown(void)
 /// The sample of the whole record that a kept one is: the auxiliary column says its number.
 static size_t number_of(size_t kept)
 {
-    return (size_t)thinned.auxiliary[0].value[kept];
+    return (size_t)lround(thinned.auxiliary[0].value[kept]);
 }
 
 static void test_a_short_record_stays_as_it_is(void)
@@ -149,6 +149,42 @@ static void test_plays_run_as_on_the_whole_record(void)
     model_free(&model);
 }
 
+/// What a logger lost is put back before: a triangle's turning points, here with five neighbours each.
+static void test_plays_saw_what_was_lost_of_a_long_record(void)
+{
+    enum { RAMP = 100 };
+    model_t model = model_new("plays");
+    model.input_max = 10;
+    model_set_num_plays(&model, 1);
+    model.radius[0] = 0.5;
+    model.weight[0] = 1;
+    static double whole[SAMPLES];
+    static double short_of[MOST];
+    for (size_t t = 0; t < SAMPLES; t++) {
+        time_of[t] = 0.01 * (double)t;
+        input[t] = fabs(10 - (double)(t % (2 * RAMP)) / RAMP * 10);
+    }
+    reference_run(&model, START_NEGATIVE_SATURATION, input, SAMPLES, whole);
+    size_t left = 0;
+    for (size_t t = 0; t < SAMPLES; t++) {
+        if ((t + 2) % RAMP >= 6 || t < RAMP) {
+            time_of[left] = time_of[t];
+            warmth[left] = (double)t;
+            input[left++] = input[t];
+        }
+    }
+    record.num_samples = left;
+    thinned = record_thin(&record, MOST, 0);
+    TEST_ASSERT_TRUE(thinned.num_samples <= MOST);
+    reference_run(&model, START_NEGATIVE_SATURATION, thinned.input, thinned.num_samples, short_of);
+    for (size_t k = 0; k < thinned.num_samples; k++) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, whole[number_of(k)], short_of[k]);
+        const size_t place = (number_of(k) + 2) % RAMP;
+        TEST_ASSERT_TRUE(thinned.carried[k] || place >= 6 || number_of(k) < RAMP);
+    }
+    model_free(&model);
+}
+
 static void test_a_record_without_time_counts_its_samples(void)
 {
     record.time = NULL;
@@ -166,6 +202,7 @@ int main(void)
     RUN_TEST(test_what_is_kept_is_the_record_s_own_in_order);
     RUN_TEST(test_judged_samples_lie_in_stretches);
     RUN_TEST(test_plays_run_as_on_the_whole_record);
+    RUN_TEST(test_plays_saw_what_was_lost_of_a_long_record);
     RUN_TEST(test_a_record_without_time_counts_its_samples);
     return UNITY_END();
 }
