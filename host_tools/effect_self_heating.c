@@ -90,7 +90,9 @@ static void apply_friction(const effect_run_t* run, const double* parameter, con
 }
 
 static const char what[] =
-    "the losses of motion warm the plant, which nobody measures, and its output shrinks and moves with that";
+    "structure that no effect above explains; one such cause is looked for, lest a drift stand in for it: "
+    "the "
+    "losses of motion warm the plant, which nobody measures, and its output shrinks and moves with that";
 
 const effect_t effect_self_heating_losses = {
     .name = "unknown",
